@@ -1,0 +1,23 @@
+"""What every test starts from: one BLAS thread before ngsolve is loaded, and fixed random numbers."""
+
+import os
+
+os.environ["OPENBLAS_NUM_THREADS"] = "1"  # read once, when ngsolve loads OpenBLAS
+
+import random
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from hypothesis import settings
+
+settings.register_profile("reproducible", derandomize=True, deadline=None)
+settings.load_profile("reproducible")
+
+
+@pytest.fixture(autouse=True)
+def fixed_random_numbers() -> Iterator[None]:
+    """Same numbers in every run and in every order of the tests."""
+    random.seed(20240229)
+    np.random.seed(20240229)
+    yield
