@@ -1,0 +1,85 @@
+"""The commands and their options. Everything heavy is imported inside a command, so that help and errors are fast."""
+
+from __future__ import annotations
+
+import importlib.metadata
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import App, Parameter
+
+from embedding.cli.files import check_output, check_pictures, default_archive
+from embedding.cli.output import print_json, print_solution, solution_summary
+
+app = App(
+    name="embedding",
+    help="Nonlinear hyperelastic shells inside a free space with electric or magnetic fields.",
+    version=lambda: importlib.metadata.version("embedding"),
+    suppress_keyboard_interrupt=False,      # the door answers for interrupts
+)
+
+SceneFile = Annotated[Path, Parameter(help="Scene file (TOML).")]
+ArchiveFile = Annotated[Path, Parameter(help="Archive (.vtkhdf) written by `embedding run`.")]
+Overrides = Annotated[
+    tuple[str, ...],
+    Parameter(name="--set", negative="", help="Override a field: shell.thickness='0.1 mm'. May be repeated."),
+]
+AsJson = Annotated[bool, Parameter(name="--json", negative="", help="Print one JSON object instead of text.")]
+
+
+@app.command
+def run(
+    scene: SceneFile,
+    /,
+    *,
+    out: Annotated[Path | None, Parameter(help="Archive to write; default NAME.vtkhdf.")] = None,
+    overrides: Overrides = (),
+    as_json: AsJson = False,
+    progress: Annotated[bool, Parameter(help="Show the progress on standard error.")] = True,
+    picture: Annotated[Path | None, Parameter(help="Also draw the last step into this PNG file.")] = None,
+) -> None:
+    """Solve a scene and write its archive.
+
+    The archive opens in ParaView as it is; `embedding info` and `embedding plot` read it. A solve that fails leaves
+    the accepted steps in it (exit code 3).
+    """
+    from embedding.scene import load_scene
+
+    stated = load_scene(scene, overrides)
+    archive = check_output("--out", default_archive(stated.name) if out is None else out, ".vtkhdf")
+    if picture is not None:
+        check_pictures("--picture")
+        check_output("--picture", picture, ".png")
+
+    from contextlib import nullcontext
+
+    from embedding.cli.progress import Progress
+    from embedding.solve import solve
+
+    with Progress() if progress else nullcontext() as watching:
+        solution = solve(stated, archive=archive, listeners=() if watching is None else (watching,))
+    if picture is not None:
+        draw(archive, picture)
+    if as_json:
+        print_json({**solution_summary(solution), "picture": picture})
+    else:
+        print_solution(solution)
+        if picture is not None:
+            print(f"  picture: {picture}")
+
+
+@app.command
+def explain(scene: SceneFile, /, *, overrides: Overrides = (), as_json: AsJson = False) -> None:
+    """Say what will be modelled, what is left out and why, without solving anything."""
+    from embedding.scene import load_scene
+
+    stated = load_scene(scene, overrides)
+
+    from embedding.plan import explain as plan_for
+
+    plan = plan_for(stated)
+    if as_json:
+        decisions = [{"topic": one.topic, "choice": one.choice, "reason": one.reason} for one in plan.decisions]
+        print_json({"scene": stated.name, "decisions": decisions})
+    else:
+        print(plan.text())

@@ -1,0 +1,52 @@
+"""Files the user names: checked before any work is done, so that a long solve cannot end at a mistyped folder."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import re
+from pathlib import Path
+from typing import ClassVar
+
+from embedding.errors import EmbeddingError
+
+
+class UsageError(EmbeddingError):
+    """The command line asks for something that cannot be done; the message names the option, the value and why."""
+
+    exit_code: ClassVar[int] = 2
+
+
+def default_archive(name: str) -> Path:
+    """Archive for a scene called ``name``, in the present folder: ``name.vtkhdf`` with unfit characters replaced."""
+    stem = re.sub(r"[^\w.+-]+", "_", name).strip("._") or "scene"
+    return Path(f"{stem}.vtkhdf")
+
+
+def check_output(option: str, path: Path, suffix: str) -> Path:
+    """Return ``path`` if a file with ``suffix`` can be written there.
+
+    Raises:
+        UsageError: wrong suffix, missing folder, a folder of that name, or no permission.
+    """
+    folder = path.parent
+    if path.suffix != suffix:
+        raise UsageError(f"{option}: {str(path)!r} must end in {suffix!r}")
+    if not folder.is_dir():
+        raise UsageError(f"{option}: the folder {str(folder)!r} of {str(path)!r} does not exist")
+    if path.is_dir():
+        raise UsageError(f"{option}: {str(path)!r} is a folder, a file name is needed")
+    if not os.access(path if path.exists() else folder, os.W_OK):
+        raise UsageError(f"{option}: no permission to write {str(path)!r}")
+    return path
+
+
+def check_pictures(option: str) -> None:
+    """Make sure the optional packages that draw are installed.
+
+    Raises:
+        UsageError: pyvista or matplotlib is missing; the message says how to install them.
+    """
+    missing = [name for name in ("pyvista", "matplotlib") if importlib.util.find_spec(name) is None]
+    if missing:
+        raise UsageError(f"{option}: pictures need {' and '.join(missing)}: pip install 'embedding[pictures]'")

@@ -1,0 +1,101 @@
+"""What the commands print on standard output: one JSON object, or a few aligned lines for people."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from rich.console import Console
+
+if TYPE_CHECKING:
+    from embedding.solve.solution import Solution
+
+#: Units of the scalars, for people; what is not listed has no unit.
+UNITS = {
+    "pressure_top": "Pa", "pressure_bottom": "Pa", "pressure_difference": "Pa", "voltage": "V", "charge": "C",
+    "field_energy": "J", "elastic_energy": "J", "force_x": "N", "force_y": "N", "force_z": "N",
+}
+
+
+def print_json(value: Mapping[str, Any]) -> None:
+    """Print one JSON object on standard output; numbers that JSON cannot hold (nan, inf) become null."""
+    print(json.dumps(_plain(value), indent=2, allow_nan=False))
+
+
+def print_rows(rows: Iterable[tuple[str, str]]) -> None:
+    """Print names and values as two aligned columns, values never broken across lines."""
+    rows = list(rows)
+    width = max((len(name) for name, _ in rows), default=0)
+    for name, value in rows:
+        print(f"  {name:<{width}}  {value}")
+
+
+def console() -> Console:
+    """A console on standard output that is wide enough for tables where nobody looks at a terminal."""
+    terminal = Console()
+    return terminal if terminal.is_terminal else Console(width=200)
+
+
+def number(value: float, unit: str = "") -> str:
+    """A number with six digits and its unit."""
+    return f"{value:.6g} {unit}".rstrip()
+
+
+def seconds(value: float) -> str:
+    """A duration as people say it: 3.2 s, 4 min 05 s."""
+    minutes, rest = divmod(value, 60.0)
+    return f"{int(minutes)} min {rest:02.0f} s" if minutes else f"{rest:.1f} s"
+
+
+def solution_summary(solution: Solution) -> dict[str, Any]:
+    """A solution as plain data: result, final scalars, error estimate and cost."""
+    last = solution.steps[-1] if solution.steps else None
+    return {
+        "scene": solution.scene.name,
+        "result": solution.result.name,
+        "message": solution.message,
+        "steps": len(solution.steps),
+        "scalars": last.scalars if last else {},
+        "estimated_error": {
+            "value": solution.error.value, "quantity": solution.error.quantity, "method": solution.error.method,
+        },
+        "cost": {
+            "wall_seconds": solution.cost.wall_seconds,
+            "cpu_seconds": solution.cost.cpu_seconds,
+            "peak_memory_bytes": solution.cost.peak_memory_bytes,
+            "unknowns": solution.cost.unknowns,
+            "parts": solution.cost.parts,
+        },
+        "archive": solution.archive,
+    }
+
+
+def print_solution(solution: Solution) -> None:
+    """Print the end of a run for people: the final scalars, the error estimate, the cost and the archive."""
+    summary = solution_summary(solution)
+    error, cost = solution.error, solution.cost
+    print(f"{summary['scene']}: {summary['result'].lower().replace('_', ' ')} after {summary['steps']} steps")
+    rows = [(name, number(value, UNITS.get(name, ""))) for name, value in summary["scalars"].items()]
+    rows.append(("estimated error", f"{error.value:.1e} of {error.quantity} ({error.method})"))
+    rows.append(("cost", f"{seconds(cost.wall_seconds)}, {cost.peak_memory_bytes / 1e6:.0f} MB, "
+                         f"{sum(cost.unknowns.values())} unknowns"))
+    if solution.archive is not None:
+        rows.append(("archive", str(solution.archive)))
+    print_rows(rows)
+
+
+def _plain(value: Any) -> Any:
+    """The same value in the types of JSON."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, bool | int | str) or value is None:
+        return value
+    if hasattr(value, "item"):                      # a NumPy scalar
+        return _plain(value.item())
+    return str(value)

@@ -1,0 +1,146 @@
+"""Progress of a solve on standard error: a live panel on a terminal, plain lines elsewhere."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from types import TracebackType
+from typing import TYPE_CHECKING, Self
+
+from rich.console import Console, Group
+from rich.live import Live
+from rich.progress_bar import ProgressBar
+from rich.table import Table
+from rich.text import Text
+
+from embedding.solve.events import Iteration, Listener, StepRecord
+
+if TYPE_CHECKING:
+    from embedding.solve.problem import Problem
+    from embedding.solve.solution import Solution
+    from embedding.solve.state import State
+
+
+class Progress(Listener):
+    """Shows stage, load, step, the Newton history of the present step and the time passed.
+
+    Use as a context manager around the solve, so that an exception leaves the terminal as it was.
+    """
+
+    def __init__(self, console: Console | None = None, clock: Callable[[], float] = time.monotonic) -> None:
+        self.console = console if console is not None else Console(stderr=True)
+        self.clock = clock
+        self.began = clock()
+        self.title, self.planned, self.stage_ends = "", 0, list[tuple[int, str]]()
+        self.accepted_steps, self.step_number = 0, 1
+        self.target: dict[str, float] = {}
+        self.newton: list[Iteration] = []
+        self.last: StepRecord | None = None
+        self.note = ""
+        self.live: Live | None = None
+
+    def __enter__(self) -> Self:
+        if self.console.is_terminal:
+            self.live = Live(get_renderable=self.panel, console=self.console, refresh_per_second=5, transient=True)
+            self.live.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self.live is not None:
+            self.live.stop()
+            self.live = None
+
+    # -- what the solver tells ------------------------------------------------------------------------------------
+
+    def started(self, problem: Problem) -> None:
+        """The problem is meshed: say what will be solved."""
+        stages = problem.scene.path
+        self.planned = sum(stage.steps for stage in stages)
+        self.stage_ends = [
+            (sum(stage.steps for stage in stages[: k + 1]), stage.name) for k, stage in enumerate(stages)
+        ]
+        self.title = f"{problem.scene.name}: {problem.reduction.name}, {self.planned} steps"
+        self._line(self.title)
+
+    def iterated(self, step_number: int, target: dict[str, float], iteration: Iteration) -> None:
+        """Keep the Newton history of the present step."""
+        if step_number != self.step_number or iteration.number <= (self.newton[-1].number if self.newton else -1):
+            self.newton = []
+        self.step_number, self.target = step_number, dict(target)
+        self.newton.append(iteration)
+
+    def accepted(self, state: State, record: StepRecord) -> None:
+        """A step is done."""
+        self.accepted_steps, self.last, self.note = self.accepted_steps + 1, record, ""
+        self._line(
+            f"step {record.number}/{max(self.planned, record.number)} ({record.stage}): "
+            f"mechanical {record.factor_mechanical:.4g}, field {record.factor_field:.4g}, "
+            f"{len(record.iterations)} iterations{self._stretch(record)}, {self._elapsed()}"
+        )
+
+    def cut(self, step_number: int, fraction: float, reason: str) -> None:
+        """A step failed and is tried again, shorter."""
+        self.newton = []
+        self.note = f"step {step_number} is retried at {fraction:.4g} of its length: {reason}"
+        self._line(self.note)
+
+    def finished(self, solution: Solution) -> None:
+        """The path has ended."""
+        self._line(f"{solution.result.name.lower().replace('_', ' ')}, {self._elapsed()}")
+
+    # -- what people see ------------------------------------------------------------------------------------------
+
+    def panel(self) -> Group:
+        """The live picture: a bar over the steps, the present load and its Newton history."""
+        total = max(self.planned, self.accepted_steps, 1)
+        head = Table.grid(padding=(0, 2))
+        head.add_row(
+            Text(self.title or "preparing", style="bold"),
+            ProgressBar(total=total, completed=self.accepted_steps, width=24),
+            f"{self.accepted_steps}/{total} steps",
+            self._elapsed(),
+        )
+        parts: list[Table | Text] = [head]
+        if self.newton:
+            load = ", ".join(f"{name} {value:.4g}" for name, value in self.target.items())
+            parts.append(Text(f"step {self.step_number}, {self._stage()}: {load}"))
+            parts.append(self._history())
+        if self.last is not None:
+            parts.append(Text(f"last accepted: step {self.last.number}{self._stretch(self.last)}", style="dim"))
+        if self.note:
+            parts.append(Text(self.note, style="yellow"))
+        return Group(*parts)
+
+    def _history(self) -> Table:
+        """Newton steps of the present load step, the newest eight."""
+        table = Table(box=None, padding=(0, 2), header_style="dim")
+        for heading in ("Newton", "update", "residual", "p_t [Pa]", "p_b [Pa]"):
+            table.add_column(heading, justify="right")
+        for one in self.newton[-8:]:
+            table.add_row(
+                str(one.number), f"{one.update:.2e}", f"{one.residual:.2e}",
+                f"{one.pressure_top:.5g}", f"{one.pressure_bottom:.5g}",
+            )
+        return table
+
+    def _stage(self) -> str:
+        """Name of the stage the present step belongs to."""
+        for end, name in self.stage_ends:
+            if self.step_number <= end:
+                return name
+        return self.stage_ends[-1][1] if self.stage_ends else ""
+
+    def _stretch(self, record: StepRecord) -> str:
+        """The mean stretch of an accepted step, if the solver gave one."""
+        return f", stretch {record.scalars['stretch']:.6g}" if "stretch" in record.scalars else ""
+
+    def _elapsed(self) -> str:
+        minutes, rest = divmod(int(self.clock() - self.began), 60)
+        return f"{minutes:d}:{rest:02d}"
+
+    def _line(self, text: str) -> None:
+        """A plain line where there is no terminal to draw on."""
+        if self.live is None:
+            self.console.print(text, soft_wrap=True, markup=False, highlight=False)
