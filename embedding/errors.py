@@ -1,0 +1,65 @@
+"""What can go wrong, as types. The text of every error is written for the person who runs the scene."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, ClassVar, NamedTuple
+
+
+class Problem(NamedTuple):
+    """One thing that is wrong with a scene: the dotted path of the field, and what is allowed there.
+
+    ``path`` is empty when the scene as a whole is meant, for instance when its file cannot be read.
+    """
+
+    path: str
+    message: str
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.message}" if self.path else self.message
+
+
+class EmbeddingError(Exception):
+    """Base of every error that the package raises on purpose; ``str(error)`` is the full message."""
+
+    exit_code: ClassVar[int] = 1
+
+
+class SceneError(EmbeddingError):
+    """A scene that cannot be used.
+
+    ``problems`` lists everything that was found, in the order of the scene; ``source`` names the file, if any.
+    """
+
+    exit_code: ClassVar[int] = 2
+
+    def __init__(self, problems: Sequence[Problem], source: str | None = None) -> None:
+        self.problems: tuple[Problem, ...] = tuple(problems)
+        self.source = source
+        super().__init__(self.problems, source)
+
+    def __str__(self) -> str:
+        if len(self.problems) == 1:
+            prefix = f"{self.source}: " if self.source else ""
+            return f"{prefix}{self.problems[0]}"
+        title = f"{self.source or 'scene'}: {len(self.problems)} problems"
+        return "\n".join([title, *(f"  {problem}" for problem in self.problems)])
+
+
+class ArchiveError(EmbeddingError):
+    """An archive that cannot be read, is not one of ours, or was never finished."""
+
+    exit_code: ClassVar[int] = 2
+
+
+class SolveError(EmbeddingError):
+    """A solve that stopped early; ``solution`` holds the last good state and says what to try."""
+
+    exit_code: ClassVar[int] = 3
+
+    def __init__(self, message: str, solution: Any = None) -> None:
+        self.solution = solution
+        super().__init__(message, solution)
+
+    def __str__(self) -> str:
+        return str(self.args[0])

@@ -1,0 +1,46 @@
+"""What the user states: shell, supports, loads, ambient, path and options, in SI units and checked at the door."""
+
+from embedding.errors import Problem, SceneError
+from embedding.scene.ambient import Ambient, Electrode, Faces
+from embedding.scene.checks import axisymmetry_problems
+from embedding.scene.expression import Expression, parse_expression
+from embedding.scene.loads import EdgeTraction, Loads, PressureField
+from embedding.scene.materials import MooneyRivlin, NeoHookean
+from embedding.scene.options import Discretisation, Model, Solver
+from embedding.scene.path import Stage
+from embedding.scene.scales import EPSILON_0, MU_0, Scales
+from embedding.scene.scene import Scene
+from embedding.scene.shapes import Disc, InfiniteCylinder, Plate, Sphere
+from embedding.scene.shell import Shell, Support
+from embedding.scene.toml_io import load_scene
+
+__all__ = [
+    "EPSILON_0",
+    "MU_0",
+    "Ambient",
+    "Disc",
+    "Discretisation",
+    "EdgeTraction",
+    "Electrode",
+    "Expression",
+    "Faces",
+    "InfiniteCylinder",
+    "Loads",
+    "Model",
+    "MooneyRivlin",
+    "NeoHookean",
+    "Plate",
+    "PressureField",
+    "Problem",
+    "Scales",
+    "Scene",
+    "SceneError",
+    "Shell",
+    "Solver",
+    "Sphere",
+    "Stage",
+    "Support",
+    "axisymmetry_problems",
+    "load_scene",
+    "parse_expression",
+]

@@ -1,0 +1,148 @@
+"""Arithmetic in x, y and z as text, read without running code.
+
+The grammar: numbers, x, y, z, pi, + - * /, ** with a constant exponent, brackets, and the functions sin, cos,
+exp, sqrt and tanh. An expression is evaluated on anything with arithmetic: floats, arrays, finite element functions.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+import operator
+import re
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from embedding.scene.messages import nearest
+
+MAX_LENGTH = 300
+MAX_DEPTH = 40
+MAX_EXPONENT = 16
+VARIABLES = ("x", "y", "z")
+FLOAT_FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
+    "sin": math.sin, "cos": math.cos, "exp": math.exp, "sqrt": math.sqrt, "tanh": math.tanh,
+}  # fmt: skip
+"""The functions of the grammar, for floats; pass a mapping with the same names to evaluate on other objects."""
+
+_BINARY: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
+}  # fmt: skip
+_UNARY: Mapping[type[ast.unaryop], Callable[[Any], Any]] = {ast.UAdd: operator.pos, ast.USub: operator.neg}
+_CHARACTERS = re.compile(r"[0-9A-Za-z_+\-*/()., \t]*")
+
+
+@dataclass(frozen=True)
+class Expression:
+    """A checked expression. Call it with the values of x, y and z and, for other types than floats, the functions."""
+
+    text: str
+    variables: frozenset[str]
+    _tree: ast.expr = field(repr=False, compare=False)
+
+    def __call__(self, x: Any, y: Any, z: Any, functions: Mapping[str, Callable[[Any], Any]] = FLOAT_FUNCTIONS) -> Any:
+        """The value at (x, y, z); constant expressions give a float whatever x, y and z are."""
+        return _evaluate(self._tree, {"x": x, "y": y, "z": z, "pi": math.pi}, functions)
+
+
+def parse_expression(text: str) -> Expression:
+    """Check ``text`` against the grammar.
+
+    Raises:
+        ValueError: outside the grammar, too long or too deep; the text says what is wrong.
+    """
+    if len(text) > MAX_LENGTH:
+        raise ValueError(f"must have at most {MAX_LENGTH} characters")
+    if "^" in text:
+        raise ValueError("powers are written with **")
+    if not _CHARACTERS.fullmatch(text):
+        raise ValueError("must be arithmetic in x, y and z on one line")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            tree = ast.parse(text.strip(), mode="eval").body
+    except (SyntaxError, ValueError, MemoryError, RecursionError) as error:
+        raise ValueError("must be arithmetic in x, y and z; this cannot be read") from error
+    variables: set[str] = set()
+    _check(tree, variables, MAX_DEPTH)
+    return Expression(text, frozenset(variables), tree)
+
+
+def _check(node: ast.expr, variables: set[str], depth: int) -> None:
+    if depth == 0:
+        raise ValueError(f"must not be nested deeper than {MAX_DEPTH} levels")
+    match node:
+        case ast.Constant(value=value):
+            _number(value)
+        case ast.Name(id=name):
+            if name not in (*VARIABLES, "pi"):
+                raise ValueError(_unknown(name))
+            variables.update({name} - {"pi"})
+        case ast.UnaryOp(op=sign, operand=operand) if type(sign) in _UNARY:
+            _check(operand, variables, depth - 1)
+        case ast.BinOp(left=left, op=ast.Pow(), right=right):
+            _exponent(right)
+            _check(left, variables, depth - 1)
+        case ast.BinOp(left=left, op=symbol, right=right) if type(symbol) in _BINARY:
+            _check(left, variables, depth - 1)
+            _check(right, variables, depth - 1)
+        case ast.Call(func=ast.Name(id=name), args=[argument], keywords=[]) if name in FLOAT_FUNCTIONS:
+            _check(argument, variables, depth - 1)
+        case ast.Call(func=ast.Name(id=name)) if name in FLOAT_FUNCTIONS:
+            raise ValueError(f"{name} takes one argument")
+        case ast.Call(func=ast.Name(id=name)):
+            raise ValueError(_unknown(name))
+        case _:
+            raise ValueError("may use only numbers, x, y, z, pi, + - * / **, brackets, " + ", ".join(FLOAT_FUNCTIONS))
+
+
+def _unknown(name: str) -> str:
+    guess = nearest(name, (*VARIABLES, "pi", *FLOAT_FUNCTIONS))
+    hint = f"did you mean {guess}?" if guess else f"known are x, y, z, pi, {', '.join(FLOAT_FUNCTIONS)}"
+    return f'unknown name "{name}": {hint}'
+
+
+def _number(value: object) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ValueError("constants must be real numbers")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        raise ValueError("constants must be finite")
+    return number
+
+
+def _exponent(node: ast.expr) -> float:
+    match node:
+        case ast.UnaryOp(op=sign, operand=ast.Constant(value=value)) if type(sign) in _UNARY:
+            exponent = float(_UNARY[type(sign)](_number(value)))
+        case ast.Constant(value=value):
+            exponent = _number(value)
+        case _:
+            raise ValueError("the exponent of ** must be a number")
+    if abs(exponent) > MAX_EXPONENT:
+        raise ValueError(f"the exponent of ** must lie between -{MAX_EXPONENT} and {MAX_EXPONENT}")
+    return exponent
+
+
+def _evaluate(node: ast.expr, values: Mapping[str, Any], functions: Mapping[str, Callable[[Any], Any]]) -> Any:
+    match node:
+        case ast.Constant(value=value):
+            return _number(value)
+        case ast.Name(id=name):
+            return values[name]
+        case ast.UnaryOp(op=sign, operand=operand):
+            return _UNARY[type(sign)](_evaluate(operand, values, functions))
+        case ast.BinOp(left=left, op=ast.Pow(), right=right):
+            exponent = _exponent(right)
+            # whole exponents stay integers: negative bases are then fine on every kind of value
+            return _evaluate(left, values, functions) ** (int(exponent) if exponent.is_integer() else exponent)
+        case ast.BinOp(left=left, op=symbol, right=right):
+            combine = _BINARY[type(symbol)]
+            return combine(_evaluate(left, values, functions), _evaluate(right, values, functions))
+        case ast.Call(func=ast.Name(id=name), args=[argument]):
+            return functions[name](_evaluate(argument, values, functions))
+    raise ValueError("not an expression of the grammar")

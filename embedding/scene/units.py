@@ -1,0 +1,167 @@
+"""Numbers at the door: SI floats, or text with a unit such as "0.2 mm", checked for dimension and range.
+
+Values are stored in SI. The unit library is slow to load, so it is imported when the first text is read.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, replace
+from decimal import Decimal, DecimalException
+from functools import cache
+from numbers import Integral, Real
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator
+from pydantic_core import PydanticCustomError
+
+LARGEST = 1e30
+"""Largest magnitude accepted anywhere; products of a few such numbers still fit into a float."""
+
+_QUANTITY = re.compile(
+    r"\s*(?P<number>[+-]?(?:[0-9]{1,40}\.?[0-9]{0,40}|\.[0-9]{1,40})(?:[eE][+-]?[0-9]{1,4})?)\s*(?P<unit>.{0,40})"
+)
+_UNIT = re.compile(r"(?:[^\W\d_]+|[ */()·]|(?:\*\*|\^)-?[0-9](?![0-9]))+")
+
+
+@cache
+def _registry() -> Any:
+    """The unit registry, in decimal arithmetic so that "1.1 mm" is the float 0.0011 and not its neighbour."""
+    import pint
+
+    return pint.UnitRegistry(non_int_type=Decimal)
+
+
+def unit_factor(unit: str, si: str) -> Decimal:
+    """How many ``si`` units one ``unit`` holds, for example ``unit_factor("kPa", "Pa") == 1000``.
+
+    Raises:
+        ValueError: unknown unit, or one of another dimension; the text says which.
+    """
+    if not _UNIT.fullmatch(unit):
+        raise ValueError(f'"{unit}" is not a unit')
+    import pint
+
+    registry = _registry()
+    try:
+        quantity = registry.Quantity(Decimal(1), registry.parse_units(unit.replace("·", "*")))
+        return Decimal(quantity.to(si).magnitude)
+    except pint.UndefinedUnitError as error:
+        raise ValueError(f'unknown unit "{error.unit_names}"') from error
+    except pint.DimensionalityError as error:
+        raise ValueError(f'"{unit}" is a unit of {error.dim1}') from error
+    except (pint.PintError, ArithmeticError, ValueError, TypeError, AttributeError) as error:
+        raise ValueError(f'"{unit}" is not a unit') from error
+
+
+def parse_quantity(text: str, si: str) -> float:
+    """Read "0.2 mm" as a float in the unit ``si``.
+
+    Raises:
+        ValueError: no number, no unit, unknown unit or another dimension; the text says which.
+    """
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        raise ValueError("not a number with a unit")
+    unit = match["unit"].strip()
+    if not unit:
+        raise ValueError("text without a unit")
+    try:
+        return float(Decimal(match["number"]) * unit_factor(unit, si))
+    except (DecimalException, OverflowError) as error:
+        raise ValueError("out of the range of numbers") from error
+
+
+@dataclass(frozen=True)
+class Number:
+    """Validator of one number: converts text with a unit to SI, refuses booleans, nan, inf and values out of range."""
+
+    noun: str = "number"
+    unit: str | None = None
+    example: str | None = None
+    above: float | None = None
+    at_least: float | None = None
+    at_most: float | None = None
+    whole: bool = False
+
+    @property
+    def allowed(self) -> str:
+        """What may stand here, in words: ``a length greater than 0, such as 0.2 mm``."""
+        noun = "whole number" if self.whole else self.noun
+        article = "an" if noun[0] in "aeiou" else "a"
+        example = f', such as "{self.example}"' if self.example else ""
+        return f"must be {article} {noun}{self._range()}{example}"
+
+    def __call__(self, value: Any) -> float | int:
+        number = self._convert(value)
+        if not math.isfinite(number):
+            raise self._refusal(value, "must be finite")
+        outside = (
+            (self.above is not None and number <= self.above)
+            or (self.at_least is not None and number < self.at_least)
+            or (self.at_most is not None and number > self.at_most)
+        )
+        if outside:
+            raise self._refusal(value, f"must be{self._range()}")
+        if abs(number) > LARGEST or (self.above == 0 and number < 1 / LARGEST):
+            raise self._refusal(value, f"its magnitude must lie between {1 / LARGEST:g} and {LARGEST:g} {self.unit or ''}".rstrip())
+        return number
+
+    def _convert(self, value: Any) -> float | int:
+        if isinstance(value, str) and self.unit is not None:
+            try:
+                return parse_quantity(value, self.unit)
+            except ValueError as error:
+                raise self._refusal(value, f"{error}: {self.allowed}") from error
+        if isinstance(value, bool) or not isinstance(value, Integral if self.whole else Real):
+            raise self._refusal(value, self.allowed)
+        try:
+            return int(value) if self.whole else float(value)
+        except OverflowError:
+            return math.inf
+
+    def _range(self) -> str:
+        bounds = (("greater than", self.above), ("at least", self.at_least), ("at most", self.at_most))
+        words = [f"{word} {bound:g}" for word, bound in bounds if bound is not None]
+        return f" {' and '.join(words)}" if words else ""
+
+    def _refusal(self, value: Any, reason: str) -> PydanticCustomError:
+        return PydanticCustomError("refused", "{reason}", {"reason": reason, "unit": self.unit or ""})
+
+
+def _positive(number: Number) -> Number:
+    return replace(number, above=0.0)
+
+
+LENGTH = Number("length", "m", "0.2 mm")
+PRESSURE = Number("pressure", "Pa", "100 kPa")
+VOLTAGE = Number("voltage", "V", "6 kV")
+LINE_FORCE = Number("force per length", "N/m", "3 N/m")
+FORCE_DENSITY = Number("force per volume", "N/m^3", "10 kN/m^3")
+ELECTRIC_FIELD = Number("electric field", "V/m", "2 kV/mm")
+MAGNETIC_FIELD = Number("magnetic field", "A/m", "5 kA/m")
+
+Plain = Annotated[float, BeforeValidator(Number())]
+Ratio = Annotated[float, BeforeValidator(_positive(Number()))]
+Length = Annotated[float, BeforeValidator(_positive(LENGTH))]
+PositivePressure = Annotated[float, BeforeValidator(_positive(PRESSURE))]
+NonNegativePressure = Annotated[float, BeforeValidator(replace(PRESSURE, at_least=0.0))]
+Pressure = Annotated[float, BeforeValidator(PRESSURE)]
+Voltage = Annotated[float, BeforeValidator(VOLTAGE)]
+LineForce = Annotated[float, BeforeValidator(LINE_FORCE)]
+ForceDensity = Annotated[float, BeforeValidator(FORCE_DENSITY)]
+
+
+def _components(value: Any) -> Any:
+    """Accept a list, a tuple or an array of three; anything unordered or of another length is refused here."""
+    if not isinstance(value, (str, bytes, dict)) and hasattr(value, "tolist"):
+        value = value.tolist()
+    if not isinstance(value, (list, tuple)) or len(value) != 3:
+        raise PydanticCustomError("refused", "{reason}", {"reason": "must be a list of 3 components [x, y, z]", "unit": ""})
+    return value
+
+
+Components = BeforeValidator(_components)
+LineForceVector = Annotated[tuple[LineForce, LineForce, LineForce], Components]
+ForceDensityVector = Annotated[tuple[ForceDensity, ForceDensity, ForceDensity], Components]
