@@ -28,7 +28,7 @@ class EmbeddingError(Exception):
 class SceneError(EmbeddingError):
     """A scene that cannot be used.
 
-    ``problems`` lists everything that was found, in the order of the scene; ``source`` names the file, if any.
+    ``problems`` lists everything that was found, fields first; ``source`` names the file, if any.
     """
 
     exit_code: ClassVar[int] = 2

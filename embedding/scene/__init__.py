@@ -1,8 +1,7 @@
-"""What the user states: shell, supports, loads, ambient, path and options, in SI units and checked at the door."""
+"""What the user states: shell, supports, loads, ambient, path, options; in SI units, checked at the door."""
 
 from embedding.errors import Problem, SceneError
 from embedding.scene.ambient import Ambient, Electrode, Faces
-from embedding.scene.checks import axisymmetry_problems
 from embedding.scene.expression import Expression, parse_expression
 from embedding.scene.loads import EdgeTraction, Loads, PressureField
 from embedding.scene.materials import MooneyRivlin, NeoHookean
@@ -12,6 +11,7 @@ from embedding.scene.scales import EPSILON_0, MU_0, Scales
 from embedding.scene.scene import Scene
 from embedding.scene.shapes import Disc, InfiniteCylinder, Plate, Sphere
 from embedding.scene.shell import Shell, Support
+from embedding.scene.symmetry import axisymmetry_problems
 from embedding.scene.toml_io import load_scene
 
 __all__ = [

@@ -1,7 +1,7 @@
 """Arithmetic in x, y and z as text, read without running code.
 
 The grammar: numbers, x, y, z, pi, + - * /, ** with a constant exponent, brackets, and the functions sin, cos,
-exp, sqrt and tanh. An expression is evaluated on anything with arithmetic: floats, arrays, finite element functions.
+exp, sqrt and tanh. It is evaluated on anything with arithmetic: floats, arrays, finite element functions.
 """
 
 from __future__ import annotations
@@ -13,18 +13,20 @@ import re
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 
 from embedding.scene.messages import nearest
 
 MAX_LENGTH = 300
-MAX_DEPTH = 40
+MAX_DEPTH = 100
 MAX_EXPONENT = 16
 VARIABLES = ("x", "y", "z")
-FLOAT_FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
+Functions = Mapping[str, Callable[[Any], Any]]
+FLOAT_FUNCTIONS: Functions = {
     "sin": math.sin, "cos": math.cos, "exp": math.exp, "sqrt": math.sqrt, "tanh": math.tanh,
 }  # fmt: skip
-"""The functions of the grammar, for floats; pass a mapping with the same names to evaluate on other objects."""
+"""The functions of the grammar for floats; other objects need a mapping with the same names."""
 
 _BINARY: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
@@ -35,17 +37,18 @@ _CHARACTERS = re.compile(r"[0-9A-Za-z_+\-*/()., \t]*")
 
 @dataclass(frozen=True)
 class Expression:
-    """A checked expression. Call it with the values of x, y and z and, for other types than floats, the functions."""
+    """A checked expression: call it with x, y, z and, for other types than floats, the functions."""
 
     text: str
     variables: frozenset[str]
     _tree: ast.expr = field(repr=False, compare=False)
 
-    def __call__(self, x: Any, y: Any, z: Any, functions: Mapping[str, Callable[[Any], Any]] = FLOAT_FUNCTIONS) -> Any:
+    def __call__(self, x: Any, y: Any, z: Any, functions: Functions = FLOAT_FUNCTIONS) -> Any:
         """The value at (x, y, z); constant expressions give a float whatever x, y and z are."""
         return _evaluate(self._tree, {"x": x, "y": y, "z": z, "pi": math.pi}, functions)
 
 
+@lru_cache(maxsize=64)
 def parse_expression(text: str) -> Expression:
     """Check ``text`` against the grammar.
 
@@ -94,7 +97,8 @@ def _check(node: ast.expr, variables: set[str], depth: int) -> None:
         case ast.Call(func=ast.Name(id=name)):
             raise ValueError(_unknown(name))
         case _:
-            raise ValueError("may use only numbers, x, y, z, pi, + - * / **, brackets, " + ", ".join(FLOAT_FUNCTIONS))
+            functions = ", ".join(FLOAT_FUNCTIONS)
+            raise ValueError(f"may use only numbers, x, y, z, pi, + - * / **, brackets, {functions}")
 
 
 def _unknown(name: str) -> str:
@@ -128,7 +132,7 @@ def _exponent(node: ast.expr) -> float:
     return exponent
 
 
-def _evaluate(node: ast.expr, values: Mapping[str, Any], functions: Mapping[str, Callable[[Any], Any]]) -> Any:
+def _evaluate(node: ast.expr, values: Mapping[str, Any], functions: Functions) -> Any:
     match node:
         case ast.Constant(value=value):
             return _number(value)
@@ -139,7 +143,8 @@ def _evaluate(node: ast.expr, values: Mapping[str, Any], functions: Mapping[str,
         case ast.BinOp(left=left, op=ast.Pow(), right=right):
             exponent = _exponent(right)
             # whole exponents stay integers: negative bases are then fine on every kind of value
-            return _evaluate(left, values, functions) ** (int(exponent) if exponent.is_integer() else exponent)
+            power = int(exponent) if exponent.is_integer() else exponent
+            return _evaluate(left, values, functions) ** power
         case ast.BinOp(left=left, op=symbol, right=right):
             combine = _BINARY[type(symbol)]
             return combine(_evaluate(left, values, functions), _evaluate(right, values, functions))

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Discriminator, Tag
-from pydantic_core import PydanticCustomError
 
-from embedding.scene.expression import FLOAT_FUNCTIONS, Expression, parse_expression
-from embedding.scene.messages import TABLE, VALUE
+from embedding.scene.expression import FLOAT_FUNCTIONS, Expression, Functions, parse_expression
+from embedding.scene.messages import TABLE, VALUE, refusal
 from embedding.scene.part import Part
 from embedding.scene.texts import Line, Name
 from embedding.scene.units import ForceDensityVector, LineForceVector, Pressure, unit_factor
@@ -19,23 +17,20 @@ def _expression(value: Any) -> Any:
     try:
         return parse_expression(value).text if isinstance(value, str) else value
     except ValueError as error:
-        raise PydanticCustomError("refused", "{reason}", {"reason": str(error), "unit": ""}) from error
+        raise refusal(str(error)) from error
 
 
 def _pressure_unit(value: Any) -> str:
     unit = Line(limit=40)(value)
     try:
-        factor = 1 if unit == "Pa" else unit_factor(unit, "Pa")
+        unit_factor(unit, "Pa")
     except ValueError as error:
-        reason = f"{error}: must be a unit of pressure, such as kPa"
-        raise PydanticCustomError("refused", "{reason}", {"reason": reason, "unit": ""}) from error
-    if factor <= 0:
-        raise PydanticCustomError("refused", "{reason}", {"reason": "must be a unit of pressure", "unit": ""})
+        raise refusal(f"{error}: must be a unit of pressure, such as kPa") from error
     return unit
 
 
 class PressureField(Part):
-    """A pressure that varies over the reference mid-surface: ``expression`` in x, y, z (metre), times ``unit``."""
+    """A pressure over the reference mid-surface: ``expression`` in x, y, z (metre), times ``unit``."""
 
     expression: Annotated[str, BeforeValidator(_expression)]
     unit: Annotated[str, BeforeValidator(_pressure_unit)] = "Pa"
@@ -48,9 +43,9 @@ class PressureField(Part):
     @property
     def factor(self) -> float:
         """Pascal per ``unit``."""
-        return 1.0 if self.unit == "Pa" else float(unit_factor(self.unit, "Pa"))
+        return float(unit_factor(self.unit, "Pa"))
 
-    def __call__(self, x: Any, y: Any, z: Any, functions: Mapping[str, Callable[[Any], Any]] = FLOAT_FUNCTIONS) -> Any:
+    def __call__(self, x: Any, y: Any, z: Any, functions: Functions = FLOAT_FUNCTIONS) -> Any:
         """Pressure in Pa at a point in m; on other objects than floats pass their ``functions``."""
         return self.factor * self.parsed(x, y, z, functions)
 
@@ -75,9 +70,9 @@ class EdgeTraction(Part):
 class Loads(Part):
     """Mechanical loads; positive pressures push on their face (top along -n, bottom along +n).
 
-    ``rim`` says whether the thin rim face is free or pressed by the mean of the two pressures. ``variant`` selects
-    how face pressures act: with the shell's finite thickness ("embedding-aware"), as their difference on the
-    mid-surface ("net"), or in the form first published ("as-published").
+    ``rim`` says whether the thin rim face is free or pressed by the mean of the two pressures. ``variant``
+    selects how face pressures act: with the shell's finite thickness ("embedding-aware"), as their difference
+    on the mid-surface ("net"), or in the form first published ("as-published").
     """
 
     pressure_top: FacePressure = 0.0

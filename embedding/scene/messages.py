@@ -9,9 +9,17 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
-from pydantic_core import ErrorDetails
+from pydantic_core import ErrorDetails, PydanticCustomError
 
 from embedding.errors import Problem
+
+
+def refusal(reason: str, unit: str = "", **instead: Any) -> PydanticCustomError:
+    """The error a validator raises; ``reason`` says what is allowed, ``unit`` is shown after plain numbers.
+
+    A validator of a whole table names the field it means with ``field=`` and ``value=``.
+    """
+    return PydanticCustomError("refused", "{reason}", {"reason": reason, "unit": unit, **instead})
 
 
 def nearest(name: str, allowed: Iterable[str]) -> str | None:
@@ -27,7 +35,7 @@ def quoted(names: Iterable[str]) -> str:
     return " or ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)
 
 
-def choice(value: Any, allowed: Iterable[str], unit: str = "") -> str:
+def choice(value: Any, allowed: Iterable[str]) -> str:
     """The sentence for a value outside a fixed set of names."""
     names = tuple(allowed)
     guess = nearest(value, names) if isinstance(value, str) else None
@@ -40,7 +48,8 @@ def unknown_key(key: str, allowed: Iterable[str]) -> str:
     """The sentence for a name that does not exist."""
     names = tuple(allowed)
     guess = nearest(key, names)
-    return f'unknown key: did you mean "{guess}"?' if guess else f"unknown key: the keys here are {', '.join(names)}"
+    hint = f'did you mean "{guess}"?' if guess else f"the keys here are {', '.join(names)}"
+    return f"unknown key: {hint}"
 
 
 def show(value: Any, unit: str = "") -> str:
@@ -98,7 +107,8 @@ def _problem(details: ErrorDetails, model: type[BaseModel]) -> Problem:
         path = [*path, *filter(None, [context.get("field")])]
         value = context.get("value", value)
         return Problem(key_path(path), f"{show(value, context['unit'])} is not allowed: {context['reason']}")
-    return Problem(key_path(path), f"{show(value)} is not allowed: {_shape_of(kind, annotation, details['msg'])}")
+    expected = _shape_of(kind, annotation, details["msg"])
+    return Problem(key_path(path), f"{show(value)} is not allowed: {expected}")
 
 
 def _shape_of(kind: str, annotation: Any, fallback: str) -> str:
@@ -115,7 +125,8 @@ def _shape_of(kind: str, annotation: Any, fallback: str) -> str:
 def _wrong_kind(path: list[str | int], annotation: Any, value: Any) -> Problem:
     key, kinds = _kinds(_models(annotation))
     if not isinstance(value, Mapping):
-        return Problem(key_path(path), f"{show(value)} is not allowed: must be a table with {key} = {quoted(kinds)}")
+        expected = f"must be a table with {key} = {quoted(kinds)}"
+        return Problem(key_path(path), f"{show(value)} is not allowed: {expected}")
     path = [*path, key]
     if key not in value:
         return Problem(key_path(path), f"missing: must be {quoted(kinds)}")
@@ -153,14 +164,17 @@ def _allowed(field: FieldInfo) -> str | None:
     return None
 
 
-def _locate(model: type[BaseModel], loc: tuple[str | int, ...]) -> tuple[list[str | int], type[BaseModel], Any]:
-    """The path without the union tags that the validator adds, the model that owns its last name, and its annotation."""
+Location = tuple[list[str | int], type[BaseModel], Any]
+
+
+def _locate(model: type[BaseModel], loc: tuple[str | int, ...]) -> Location:
+    """The path without the validator's union tags, the model that owns its last name, and its annotation."""
     path: list[str | int] = []
     owner: type[BaseModel] = model
     annotation: Any = model
     for part in loc:
         models = _models(annotation)
-        if isinstance(part, str) and len(models) > 1 or part == VALUE or part == TABLE:
+        if isinstance(part, str) and len(models) > 1 or part in (VALUE, TABLE):
             annotation = _tagged(models, str(part))
             continue
         path.append(part)

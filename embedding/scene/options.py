@@ -11,7 +11,7 @@ from embedding.scene.units import Length, Number
 
 
 class Model(Part):
-    """Choices of the model. ``symmetry`` concerns mirror planes in 3d, ``interface`` the faces' true places."""
+    """Choices of the model: ``symmetry`` uses mirror planes in 3d, ``interface`` the faces' true places."""
 
     reduction: Literal["auto", "3d", "axisymmetric", "plane-strain"] = "auto"
     symmetry: Literal["auto", "none"] = "auto"
@@ -20,7 +20,7 @@ class Model(Part):
 
 
 class Discretisation(Part):
-    """Polynomial order and mesh sizes in m, on the shell and far away; ``grading`` is how fast sizes may change."""
+    """Polynomial order, mesh sizes in m on the shell and far away, and how fast sizes may change."""
 
     order: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=4))] = 3
     shell_size: Length | None = None
@@ -29,7 +29,7 @@ class Discretisation(Part):
 
 
 class Solver(Part):
-    """Newton's method: relative tolerance, iterations per step, smallest fraction of a planned step, threads."""
+    """Newton's method: tolerance, iterations per step, smallest fraction of a planned step, threads."""
 
     tolerance: Annotated[float, BeforeValidator(Number(at_least=1e-13, at_most=1e-3))] = 1e-9
     max_iterations: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=10_000))] = 25

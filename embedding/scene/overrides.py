@@ -11,13 +11,15 @@ from typing import Any
 from embedding.errors import Problem, SceneError
 
 
-def apply_overrides(table: Mapping[str, Any], overrides: Sequence[str], source: str | None = None) -> dict[str, Any]:
-    """A changed copy of ``table``; entries of lists are counted from 0, and the number after the last adds one.
+def apply_overrides(
+    table: Mapping[str, Any], overrides: Sequence[str], source: str | None = None
+) -> dict[str, Any]:
+    """A changed copy of ``table``; list entries count from 0, and the number after the last adds one.
 
     Whether the keys exist and the values fit is seen when the scene is built from the result.
 
     Raises:
-        SceneError: no ``=``, an empty key, a broken value, or a key that leads through something that is no table.
+        SceneError: no ``=``, an empty key, a broken value, or a key that leads through a single value.
     """
     changed: dict[str, Any] = copy.deepcopy(dict(table))
     problems = []
@@ -63,7 +65,7 @@ def _assign(table: dict[str, Any], keys: Sequence[str], value: Any) -> None:
     node: Any = table
     for depth, key in enumerate(keys):
         last = depth == len(keys) - 1
-        empty = None if last else ([] if keys[depth + 1].isdecimal() else {})
+        empty: Any = None if last else ([] if keys[depth + 1].isdecimal() else {})
         if isinstance(node, list):
             index = _index(key, node, keys[:depth])
             if index == len(node):
@@ -84,5 +86,5 @@ def _index(key: str, node: list[Any], path: Sequence[str]) -> int:
     if not key.isdecimal():
         raise ValueError(f"{where} is a list: name one of its entries by number, such as {where}.0")
     if int(key) > len(node):
-        raise ValueError(f"{where} has {len(node)} entries: the next number is {len(node)}")
+        raise ValueError(f"the next entry of {where} has the number {len(node)}; or give the whole list")
     return int(key)

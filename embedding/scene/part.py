@@ -1,4 +1,4 @@
-"""The base of every piece of a scene: immutable, strict about names, and honest about everything that is wrong."""
+"""The base of every piece of a scene: immutable, strict about names, and told of all errors at once."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from embedding.scene.messages import problems_of
 
 
 class Unavailable(Exception):
-    """A check asked for a field that is itself wrong; the check is skipped, the field's own problem is reported."""
+    """A check asked for a field that is itself wrong; it is skipped, as that field has its own problem."""
 
 
 class _Broken:
@@ -32,7 +32,7 @@ class _Broken:
 
     __getattr__ = __lt__ = __le__ = __gt__ = __ge__ = __iter__ = __len__ = __bool__ = __getitem__ = _refuse
     __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = _refuse
-    __eq__ = __ne__ = __hash__ = __neg__ = __abs__ = __contains__ = __float__ = __str__ = _refuse  # type: ignore[assignment]
+    __eq__ = __ne__ = __hash__ = __neg__ = __abs__ = __contains__ = __float__ = __str__ = _refuse
 
 
 BROKEN = _Broken()

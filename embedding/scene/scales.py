@@ -17,7 +17,7 @@ MU_0 = 1.25663706212e-6
 
 @dataclass(frozen=True)
 class Scales:
-    """Length (m), stress (Pa) and permittivity (F/m) or permeability (H/m); everything else follows from them."""
+    """Length (m), stress (Pa) and permittivity (F/m) or permeability (H/m); the rest follows from them."""
 
     length: float
     stress: float
@@ -25,9 +25,10 @@ class Scales:
 
     @classmethod
     def of(cls, scene: Scene) -> Scales:
-        """Size of the shape, shear modulus, and the vacuum constant of the scene's field (electric without one)."""
+        """Size of the shape, shear modulus, vacuum constant of the scene's field (electric without one)."""
         magnetic = scene.ambient is not None and scene.ambient.field == "magnetic"
-        return cls(scene.shell.shape.size, scene.shell.material.shear_modulus, MU_0 if magnetic else EPSILON_0)
+        shell = scene.shell
+        return cls(shell.shape.size, shell.material.shear_modulus, MU_0 if magnetic else EPSILON_0)
 
     @property
     def area(self) -> float:

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Self
 
 from pydantic import BeforeValidator, ValidationError, ValidationInfo, model_validator
-from pydantic_core import PydanticCustomError
 
 from embedding.errors import Problem, SceneError
 from embedding.scene.ambient import Ambient, Faces
 from embedding.scene.checks import cross_problems
 from embedding.scene.loads import Loads
+from embedding.scene.messages import refusal
 from embedding.scene.options import Discretisation, Model, Solver
 from embedding.scene.part import TOLERANT, Part, tolerant
 from embedding.scene.path import Stage
@@ -21,7 +21,7 @@ from embedding.scene.texts import Name
 
 def _not_empty(value: Any) -> Any:
     if isinstance(value, (list, tuple)) and not value:
-        raise PydanticCustomError("refused", "{reason}", {"reason": "must hold at least one stage", "unit": ""})
+        raise refusal("must hold at least one stage")
     return value
 
 
@@ -74,7 +74,7 @@ class Scene(Part):
         """The whole scene as TOML, defaults included; reading it back gives an equal scene."""
         from embedding.scene.toml_io import write_table
 
-        return write_table(self.model_dump(mode="python", exclude_none=True))
+        return write_table(self._table())
 
     def with_overrides(self, overrides: Sequence[str]) -> Scene:
         """A copy with changes such as ``"shell.thickness=0.1 mm"``.
@@ -84,7 +84,10 @@ class Scene(Part):
         """
         from embedding.scene.overrides import apply_overrides
 
-        return Scene.from_table(apply_overrides(self.model_dump(mode="python", exclude_none=True), overrides))
+        return Scene.from_table(apply_overrides(self._table(), overrides))
+
+    def _table(self) -> dict[str, Any]:
+        return self.model_dump(mode="json", exclude_none=True)
 
     @classmethod
     def _further_problems(cls, data: Mapping[str, Any]) -> tuple[Problem, ...]:

@@ -1,4 +1,4 @@
-"""Reference mid-surfaces. Each knows its edges, whether it is closed, its size and the reductions that fit it.
+"""Reference mid-surfaces: their edges, whether they are closed, their size, the reductions that fit them.
 
 The top face is the one the normal points out of; on closed shapes that is the outside.
 """
@@ -9,8 +9,8 @@ from math import cos, sin
 from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Discriminator, Tag, model_validator
-from pydantic_core import PydanticCustomError
 
+from embedding.scene.messages import refusal
 from embedding.scene.part import Part, kind_under
 from embedding.scene.units import Length, Ratio
 
@@ -99,7 +99,7 @@ class Sphere(Part):
 class InfiniteCylinder(Part):
     """An infinitely long cylinder around the z axis with outward normal, treated per length of it.
 
-    ``axial="held"`` keeps the axial stretch at ``axial_stretch``; "free" leaves the open ends without traction.
+    ``axial`` is "held", at the stretch ``axial_stretch``, or "free": open ends without traction.
     """
 
     edges: ClassVar[tuple[str, ...]] = ()
@@ -114,16 +114,8 @@ class InfiniteCylinder(Part):
     @model_validator(mode="after")
     def _stretch_needs_holding(self) -> Self:
         if self.axial == "free" and self.axial_stretch != 1.0:
-            raise PydanticCustomError(
-                "refused",
-                "{reason}",
-                {
-                    "reason": 'a prescribed axial stretch needs axial = "held"',
-                    "unit": "",
-                    "field": "axial_stretch",
-                    "value": self.axial_stretch,
-                },
-            )
+            reason = 'a prescribed axial stretch needs axial = "held"'
+            raise refusal(reason, field="axial_stretch", value=self.axial_stretch)
         return self
 
     @property

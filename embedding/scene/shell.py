@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator
-from pydantic_core import PydanticCustomError
 
 from embedding.scene.materials import Material
+from embedding.scene.messages import refusal
 from embedding.scene.part import Part
 from embedding.scene.shapes import Shape
 from embedding.scene.texts import Name
@@ -17,7 +17,7 @@ Axis = Literal["x", "y", "z"]
 
 
 class Shell(Part):
-    """A thin body around ``shape``; the electric and magnetic constants are relative to vacuum, None if unknown."""
+    """A thin body around ``shape``; permittivity and permeability are relative to vacuum, None if unknown."""
 
     shape: Shape
     thickness: Length
@@ -28,8 +28,7 @@ class Shell(Part):
 
 def _axes(value: Any) -> Any:
     if not isinstance(value, (list, tuple)) or not value or len(set(map(str, value))) < len(value):
-        reason = 'must be a list of different axes, such as ["x", "z"]'
-        raise PydanticCustomError("refused", "{reason}", {"reason": reason, "unit": ""})
+        raise refusal('must be a list of different axes, such as ["x", "z"]')
     return value
 
 

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator
-from pydantic_core import PydanticCustomError
+
+from embedding.scene.messages import refusal
 
 
 @dataclass(frozen=True)
@@ -21,8 +22,10 @@ class Line:
         return f"must be text on one line, of 1 to {self.limit} printable characters"
 
     def __call__(self, value: Any) -> str:
-        if not isinstance(value, str) or not value.isprintable() or not 0 < len(value.strip()) <= len(value) <= self.limit:
-            raise PydanticCustomError("refused", "{reason}", {"reason": self.allowed, "unit": ""})
+        if not isinstance(value, str) or not value.isprintable():
+            raise refusal(self.allowed)
+        if not value.strip() or len(value) > self.limit:
+            raise refusal(self.allowed)
         return value
 
 

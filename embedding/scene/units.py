@@ -9,12 +9,14 @@ import math
 import re
 from dataclasses import dataclass, replace
 from decimal import Decimal, DecimalException
-from functools import cache
+from functools import cache, lru_cache
 from numbers import Integral, Real
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator
 from pydantic_core import PydanticCustomError
+
+from embedding.scene.messages import refusal
 
 LARGEST = 1e30
 """Largest magnitude accepted anywhere; products of a few such numbers still fit into a float."""
@@ -33,12 +35,15 @@ def _registry() -> Any:
     return pint.UnitRegistry(non_int_type=Decimal)
 
 
+@lru_cache(maxsize=256)
 def unit_factor(unit: str, si: str) -> Decimal:
     """How many ``si`` units one ``unit`` holds, for example ``unit_factor("kPa", "Pa") == 1000``.
 
     Raises:
         ValueError: unknown unit, or one of another dimension; the text says which.
     """
+    if unit == si:
+        return Decimal(1)
     if not _UNIT.fullmatch(unit):
         raise ValueError(f'"{unit}" is not a unit')
     import pint
@@ -51,7 +56,7 @@ def unit_factor(unit: str, si: str) -> Decimal:
         raise ValueError(f'unknown unit "{error.unit_names}"') from error
     except pint.DimensionalityError as error:
         raise ValueError(f'"{unit}" is a unit of {error.dim1}') from error
-    except (pint.PintError, ArithmeticError, ValueError, TypeError, AttributeError) as error:
+    except Exception as error:  # the unit library answers odd text with many kinds of error
         raise ValueError(f'"{unit}" is not a unit') from error
 
 
@@ -75,7 +80,7 @@ def parse_quantity(text: str, si: str) -> float:
 
 @dataclass(frozen=True)
 class Number:
-    """Validator of one number: converts text with a unit to SI, refuses booleans, nan, inf and values out of range."""
+    """Validator of one number: reads units, refuses booleans, nan, inf and values out of range."""
 
     noun: str = "number"
     unit: str | None = None
@@ -87,25 +92,28 @@ class Number:
 
     @property
     def allowed(self) -> str:
-        """What may stand here, in words: ``a length greater than 0, such as 0.2 mm``."""
+        """What may stand here: ``must be a length greater than 0, such as "0.2 mm"``."""
         noun = "whole number" if self.whole else self.noun
         article = "an" if noun[0] in "aeiou" else "a"
         example = f', such as "{self.example}"' if self.example else ""
-        return f"must be {article} {noun}{self._range()}{example}"
+        of = " of" if self.above is None and self._range() else ""
+        return f"must be {article} {noun}{of}{self._range()}{example}"
 
     def __call__(self, value: Any) -> float | int:
         number = self._convert(value)
         if not math.isfinite(number):
-            raise self._refusal(value, "must be finite")
+            raise self._refusal("must be finite")
         outside = (
             (self.above is not None and number <= self.above)
             or (self.at_least is not None and number < self.at_least)
             or (self.at_most is not None and number > self.at_most)
         )
         if outside:
-            raise self._refusal(value, f"must be{self._range()}")
-        if abs(number) > LARGEST or (self.above == 0 and number < 1 / LARGEST):
-            raise self._refusal(value, f"its magnitude must lie between {1 / LARGEST:g} and {LARGEST:g} {self.unit or ''}".rstrip())
+            raise self._refusal(f"must be{self._range()}")
+        if abs(number) > LARGEST:
+            raise self._refusal(f"must be at most {LARGEST:g} in magnitude")
+        if self.above == 0 and number < 1 / LARGEST:
+            raise self._refusal(f"must be at least {1 / LARGEST:g}")
         return number
 
     def _convert(self, value: Any) -> float | int:
@@ -113,11 +121,13 @@ class Number:
             try:
                 return parse_quantity(value, self.unit)
             except ValueError as error:
-                raise self._refusal(value, f"{error}: {self.allowed}") from error
-        if isinstance(value, bool) or not isinstance(value, Integral if self.whole else Real):
-            raise self._refusal(value, self.allowed)
+                raise self._refusal(f"{error}: {self.allowed}") from error
+        if self.whole and isinstance(value, Integral) and not isinstance(value, bool):
+            return int(value)
+        if self.whole or isinstance(value, bool) or not isinstance(value, Real):
+            raise self._refusal(self.allowed)
         try:
-            return int(value) if self.whole else float(value)
+            return float(value)
         except OverflowError:
             return math.inf
 
@@ -126,8 +136,8 @@ class Number:
         words = [f"{word} {bound:g}" for word, bound in bounds if bound is not None]
         return f" {' and '.join(words)}" if words else ""
 
-    def _refusal(self, value: Any, reason: str) -> PydanticCustomError:
-        return PydanticCustomError("refused", "{reason}", {"reason": reason, "unit": self.unit or ""})
+    def _refusal(self, reason: str) -> PydanticCustomError:
+        return refusal(reason, self.unit or "")
 
 
 def _positive(number: Number) -> Number:
@@ -154,11 +164,11 @@ ForceDensity = Annotated[float, BeforeValidator(FORCE_DENSITY)]
 
 
 def _components(value: Any) -> Any:
-    """Accept a list, a tuple or an array of three; anything unordered or of another length is refused here."""
+    """Accept a list, a tuple or an array of three; anything unordered or of another length is refused."""
     if not isinstance(value, (str, bytes, dict)) and hasattr(value, "tolist"):
         value = value.tolist()
     if not isinstance(value, (list, tuple)) or len(value) != 3:
-        raise PydanticCustomError("refused", "{reason}", {"reason": "must be a list of 3 components [x, y, z]", "unit": ""})
+        raise refusal("must be a list of 3 components [x, y, z]")
     return value
 
 
