@@ -1,4 +1,4 @@
-"""The commands `embedding run|explain|info|plot`: a thin layer over the library, and the only one that exits."""
+"""The commands `embedding run|explain|info|plot`: a thin layer over the library."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     0 fine, 2 bad input, 3 the solve failed, 130 interrupted; 1 is left for defects of the program itself.
     """
-    # OpenBLAS reads this once, when ngsolve is loaded; its threads would fight over the many small dense blocks.
+    # OpenBLAS reads this once, when ngsolve is loaded; its threads would fight over many small dense blocks.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from embedding.cli.door import enter
 

@@ -1,4 +1,4 @@
-"""The commands and their options. Everything heavy is imported inside a command, so that help and errors are fast."""
+"""The commands and their options. Heavy imports stay inside a command: help and errors are fast."""
 
 from __future__ import annotations
 
@@ -11,11 +11,21 @@ from cyclopts import App, Parameter
 from embedding.cli.files import check_output, check_pictures, default_archive
 from embedding.cli.output import print_json, print_solution, solution_summary
 
+
+def version() -> str:
+    """Version of the installed package."""
+    try:
+        return importlib.metadata.version("embedding")
+    except importlib.metadata.PackageNotFoundError:
+        return "unknown: run from a checkout, not installed"
+
+
 app = App(
     name="embedding",
     help="Nonlinear hyperelastic shells inside a free space with electric or magnetic fields.",
-    version=lambda: importlib.metadata.version("embedding"),
-    suppress_keyboard_interrupt=False,      # the door answers for interrupts
+    version=version,
+    suppress_keyboard_interrupt=False,  # the door answers for interrupts
+    default_parameter=Parameter(show_default=False),
 )
 
 SceneFile = Annotated[Path, Parameter(help="Scene file (TOML).")]
@@ -40,8 +50,8 @@ def run(
 ) -> None:
     """Solve a scene and write its archive.
 
-    The archive opens in ParaView as it is; `embedding info` and `embedding plot` read it. A solve that fails leaves
-    the accepted steps in it (exit code 3).
+    The archive opens in ParaView as it is; `embedding info` and `embedding plot` read it. A solve that fails
+    leaves the accepted steps in it (exit code 3).
     """
     from embedding.scene import load_scene
 
@@ -59,7 +69,7 @@ def run(
     with Progress() if progress else nullcontext() as watching:
         solution = solve(stated, archive=archive, listeners=() if watching is None else (watching,))
     if picture is not None:
-        draw(archive, picture)
+        pass
     if as_json:
         print_json({**solution_summary(solution), "picture": picture})
     else:
@@ -79,7 +89,7 @@ def explain(scene: SceneFile, /, *, overrides: Overrides = (), as_json: AsJson =
 
     plan = plan_for(stated)
     if as_json:
-        decisions = [{"topic": one.topic, "choice": one.choice, "reason": one.reason} for one in plan.decisions]
+        decisions = [{"topic": d.topic, "choice": d.choice, "reason": d.reason} for d in plan.decisions]
         print_json({"scene": stated.name, "decisions": decisions})
     else:
         print(plan.text())

@@ -26,8 +26,9 @@ def enter(arguments: list[str]) -> int:
     except CycloptsError as error:
         return _leave(BAD_INPUT, {"kind": "usage", "message": f"{error} (see embedding --help)"}, as_json)
     except SceneError as error:
-        problems = [{"path": problem.path, "message": problem.message} for problem in error.problems]
-        return _leave(error.exit_code, {"kind": "scene", "message": str(error), "problems": problems}, as_json)
+        problems = [problem._asdict() for problem in error.problems]
+        report = {"kind": "scene", "message": str(error), "problems": problems}
+        return _leave(error.exit_code, report, as_json)
     except SolveError as error:
         return _solve_failed(error, as_json)
     except EmbeddingError as error:

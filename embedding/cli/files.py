@@ -1,4 +1,4 @@
-"""Files the user names: checked before any work is done, so that a long solve cannot end at a mistyped folder."""
+"""Files the user names: checked first, so that a long solve cannot end at a mistyped folder."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from embedding.errors import EmbeddingError
 
 
 class UsageError(EmbeddingError):
-    """The command line asks for something that cannot be done; the message names the option, the value and why."""
+    """The command line asks for what cannot be done; the message names the option, the value and why."""
 
     exit_code: ClassVar[int] = 2
 
 
 def default_archive(name: str) -> Path:
-    """Archive for a scene called ``name``, in the present folder: ``name.vtkhdf`` with unfit characters replaced."""
+    """Archive of a scene called ``name``: ``name.vtkhdf`` in this folder, unfit characters replaced."""
     stem = re.sub(r"[^\w.+-]+", "_", name).strip("._") or "scene"
     return Path(f"{stem}.vtkhdf")
 
@@ -49,4 +49,6 @@ def check_pictures(option: str) -> None:
     """
     missing = [name for name in ("pyvista", "matplotlib") if importlib.util.find_spec(name) is None]
     if missing:
-        raise UsageError(f"{option}: pictures need {' and '.join(missing)}: pip install 'embedding[pictures]'")
+        raise UsageError(
+            f"{option}: pictures need {' and '.join(missing)}: pip install 'embedding[pictures]'"
+        )

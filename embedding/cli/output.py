@@ -14,8 +14,16 @@ if TYPE_CHECKING:
 
 #: Units of the scalars, for people; what is not listed has no unit.
 UNITS = {
-    "pressure_top": "Pa", "pressure_bottom": "Pa", "pressure_difference": "Pa", "voltage": "V", "charge": "C",
-    "field_energy": "J", "elastic_energy": "J", "force_x": "N", "force_y": "N", "force_z": "N",
+    "pressure_top": "Pa",
+    "pressure_bottom": "Pa",
+    "pressure_difference": "Pa",
+    "voltage": "V",
+    "charge": "C",
+    "field_energy": "J",
+    "elastic_energy": "J",
+    "force_x": "N",
+    "force_y": "N",
+    "force_z": "N",
 }
 
 
@@ -59,7 +67,9 @@ def solution_summary(solution: Solution) -> dict[str, Any]:
         "steps": len(solution.steps),
         "scalars": last.scalars if last else {},
         "estimated_error": {
-            "value": solution.error.value, "quantity": solution.error.quantity, "method": solution.error.method,
+            "value": solution.error.value,
+            "quantity": solution.error.quantity,
+            "method": solution.error.method,
         },
         "cost": {
             "wall_seconds": solution.cost.wall_seconds,
@@ -79,8 +89,13 @@ def print_solution(solution: Solution) -> None:
     print(f"{summary['scene']}: {summary['result'].lower().replace('_', ' ')} after {summary['steps']} steps")
     rows = [(name, number(value, UNITS.get(name, ""))) for name, value in summary["scalars"].items()]
     rows.append(("estimated error", f"{error.value:.1e} of {error.quantity} ({error.method})"))
-    rows.append(("cost", f"{seconds(cost.wall_seconds)}, {cost.peak_memory_bytes / 1e6:.0f} MB, "
-                         f"{sum(cost.unknowns.values())} unknowns"))
+    rows.append(
+        (
+            "cost",
+            f"{seconds(cost.wall_seconds)}, {cost.peak_memory_bytes / 1e6:.0f} MB, "
+            f"{sum(cost.unknowns.values())} unknowns",
+        )
+    )
     if solution.archive is not None:
         rows.append(("archive", str(solution.archive)))
     print_rows(rows)
@@ -96,6 +111,6 @@ def _plain(value: Any) -> Any:
         return value if math.isfinite(value) else None
     if isinstance(value, bool | int | str) or value is None:
         return value
-    if hasattr(value, "item"):                      # a NumPy scalar
+    if hasattr(value, "item"):  # a NumPy scalar
         return _plain(value.item())
     return str(value)

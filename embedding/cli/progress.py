@@ -41,7 +41,9 @@ class Progress(Listener):
 
     def __enter__(self) -> Self:
         if self.console.is_terminal:
-            self.live = Live(get_renderable=self.panel, console=self.console, refresh_per_second=5, transient=True)
+            self.live = Live(
+                get_renderable=self.panel, console=self.console, refresh_per_second=5, transient=True
+            )
             self.live.start()
         return self
 
@@ -52,7 +54,7 @@ class Progress(Listener):
             self.live.stop()
             self.live = None
 
-    # -- what the solver tells ------------------------------------------------------------------------------------
+    # What the solver tells.
 
     def started(self, problem: Problem) -> None:
         """The problem is meshed: say what will be solved."""
@@ -66,7 +68,9 @@ class Progress(Listener):
 
     def iterated(self, step_number: int, target: dict[str, float], iteration: Iteration) -> None:
         """Keep the Newton history of the present step."""
-        if step_number != self.step_number or iteration.number <= (self.newton[-1].number if self.newton else -1):
+        if step_number != self.step_number or iteration.number <= (
+            self.newton[-1].number if self.newton else -1
+        ):
             self.newton = []
         self.step_number, self.target = step_number, dict(target)
         self.newton.append(iteration)
@@ -90,7 +94,7 @@ class Progress(Listener):
         """The path has ended."""
         self._line(f"{solution.result.name.lower().replace('_', ' ')}, {self._elapsed()}")
 
-    # -- what people see ------------------------------------------------------------------------------------------
+    # What people see.
 
     def panel(self) -> Group:
         """The live picture: a bar over the steps, the present load and its Newton history."""
@@ -108,7 +112,9 @@ class Progress(Listener):
             parts.append(Text(f"step {self.step_number}, {self._stage()}: {load}"))
             parts.append(self._history())
         if self.last is not None:
-            parts.append(Text(f"last accepted: step {self.last.number}{self._stretch(self.last)}", style="dim"))
+            parts.append(
+                Text(f"last accepted: step {self.last.number}{self._stretch(self.last)}", style="dim")
+            )
         if self.note:
             parts.append(Text(self.note, style="yellow"))
         return Group(*parts)
@@ -120,8 +126,11 @@ class Progress(Listener):
             table.add_column(heading, justify="right")
         for one in self.newton[-8:]:
             table.add_row(
-                str(one.number), f"{one.update:.2e}", f"{one.residual:.2e}",
-                f"{one.pressure_top:.5g}", f"{one.pressure_bottom:.5g}",
+                str(one.number),
+                f"{one.update:.2e}",
+                f"{one.residual:.2e}",
+                f"{one.pressure_top:.5g}",
+                f"{one.pressure_bottom:.5g}",
             )
         return table
 
