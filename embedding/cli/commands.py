@@ -93,3 +93,16 @@ def explain(scene: SceneFile, /, *, overrides: Overrides = (), as_json: AsJson =
         print_json({"scene": stated.name, "decisions": decisions})
     else:
         print(plan.text())
+
+
+@app.command
+def info(archive: ArchiveFile, /, *, as_json: AsJson = False) -> None:
+    """Tell what is in an archive: how the run ended, its steps, its error estimate and its cost."""
+    from embedding.archive import open_archive
+    from embedding.cli.info import archive_summary, print_archive
+
+    opened = open_archive(archive)
+    if as_json:
+        print_json(archive_summary(opened))
+    else:
+        print_archive(opened)

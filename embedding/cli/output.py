@@ -5,26 +5,15 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 
 if TYPE_CHECKING:
-    from embedding.solve.solution import Solution
+    from embedding.solve.solution import Cost, ErrorEstimate, Solution
 
-#: Units of the scalars, for people; what is not listed has no unit.
-UNITS = {
-    "pressure_top": "Pa",
-    "pressure_bottom": "Pa",
-    "pressure_difference": "Pa",
-    "voltage": "V",
-    "charge": "C",
-    "field_energy": "J",
-    "elastic_energy": "J",
-    "force_x": "N",
-    "force_y": "N",
-    "force_z": "N",
-}
+    from embedding.archive.reader import ArchivedCost, ArchivedError
 
 
 def print_json(value: Mapping[str, Any]) -> None:
@@ -47,14 +36,30 @@ def console() -> Console:
 
 
 def number(value: float, unit: str = "") -> str:
-    """A number with six digits and its unit."""
-    return f"{value:.6g} {unit}".rstrip()
+    """A number with six digits and its unit; the unit "1" is not shown."""
+    return f"{value:.6g} {unit}" if unit not in ("", "1") else f"{value:.6g}"
 
 
 def seconds(value: float) -> str:
     """A duration as people say it: 3.2 s, 4 min 05 s."""
     minutes, rest = divmod(value, 60.0)
     return f"{int(minutes)} min {rest:02.0f} s" if minutes else f"{rest:.1f} s"
+
+
+def words(name: str) -> str:
+    """A result's name as words."""
+    return name.lower().replace("_", " ")
+
+
+def error_line(error: ErrorEstimate | ArchivedError) -> str:
+    """An error estimate in one line."""
+    return f"{error.value:.1e} of {error.quantity} ({error.method})"
+
+
+def cost_line(cost: Cost | ArchivedCost) -> str:
+    """Time, memory and size in one line."""
+    unknowns = sum(cost.unknowns.values())
+    return f"{seconds(cost.wall_seconds)}, {cost.peak_memory_bytes / 1e6:.0f} MB, {unknowns} unknowns"
 
 
 def solution_summary(solution: Solution) -> dict[str, Any]:
@@ -66,36 +71,22 @@ def solution_summary(solution: Solution) -> dict[str, Any]:
         "message": solution.message,
         "steps": len(solution.steps),
         "scalars": last.scalars if last else {},
-        "estimated_error": {
-            "value": solution.error.value,
-            "quantity": solution.error.quantity,
-            "method": solution.error.method,
-        },
-        "cost": {
-            "wall_seconds": solution.cost.wall_seconds,
-            "cpu_seconds": solution.cost.cpu_seconds,
-            "peak_memory_bytes": solution.cost.peak_memory_bytes,
-            "unknowns": solution.cost.unknowns,
-            "parts": solution.cost.parts,
-        },
+        "estimated_error": asdict(solution.error),
+        "cost": asdict(solution.cost),
         "archive": solution.archive,
     }
 
 
 def print_solution(solution: Solution) -> None:
     """Print the end of a run for people: the final scalars, the error estimate, the cost and the archive."""
-    summary = solution_summary(solution)
-    error, cost = solution.error, solution.cost
-    print(f"{summary['scene']}: {summary['result'].lower().replace('_', ' ')} after {summary['steps']} steps")
-    rows = [(name, number(value, UNITS.get(name, ""))) for name, value in summary["scalars"].items()]
-    rows.append(("estimated error", f"{error.value:.1e} of {error.quantity} ({error.method})"))
-    rows.append(
-        (
-            "cost",
-            f"{seconds(cost.wall_seconds)}, {cost.peak_memory_bytes / 1e6:.0f} MB, "
-            f"{sum(cost.unknowns.values())} unknowns",
-        )
-    )
+    from embedding.archive.units import scalar_unit
+
+    print(f"{solution.scene.name}: {words(solution.result.name)} after {len(solution.steps)} steps")
+    per_length = solution.scene.shell.shape.kind == "infinite-cylinder"
+    scalars = solution.steps[-1].scalars if solution.steps else {}
+    rows = [(name, number(value, scalar_unit(name, per_length))) for name, value in scalars.items()]
+    rows.append(("estimated error", error_line(solution.error)))
+    rows.append(("cost", cost_line(solution.cost)))
     if solution.archive is not None:
         rows.append(("archive", str(solution.archive)))
     print_rows(rows)

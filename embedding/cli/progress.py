@@ -13,6 +13,7 @@ from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
+from embedding.cli.output import words
 from embedding.solve.events import Iteration, Listener, StepRecord
 
 if TYPE_CHECKING:
@@ -92,7 +93,7 @@ class Progress(Listener):
 
     def finished(self, solution: Solution) -> None:
         """The path has ended."""
-        self._line(f"{solution.result.name.lower().replace('_', ' ')}, {self._elapsed()}")
+        self._line(f"{words(solution.result.name)}, {self._elapsed()}")
 
     # What people see.
 

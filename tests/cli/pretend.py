@@ -3,11 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 from embedding.solve.events import Iteration, StepRecord
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """The face of an error estimate."""
+
+    value: float
+    quantity: str
+    method: str
+
+
+@dataclass(frozen=True)
+class Cost:
+    """The face of a cost."""
+
+    wall_seconds: float
+    cpu_seconds: float
+    peak_memory_bytes: int
+    unknowns: dict[str, int]
+    parts: dict[str, float]
 
 
 def iteration(number: int) -> Iteration:
@@ -28,8 +49,8 @@ def solution(scene: Any, archive: Path | None, steps: Sequence[StepRecord], resu
         result=SimpleNamespace(name=result, advice="take smaller steps"),
         message="the whole path is solved",
         steps=tuple(steps),
-        error=SimpleNamespace(value=2e-4, quantity="stretch", method="one order lower"),
-        cost=SimpleNamespace(
+        error=Estimate(value=2e-4, quantity="stretch", method="one order lower"),
+        cost=Cost(
             wall_seconds=75.0,
             cpu_seconds=70.0,
             peak_memory_bytes=310_000_000,

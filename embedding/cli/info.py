@@ -1,0 +1,83 @@
+"""What `embedding info` tells about an archive: as plain data, and as lines and a table for people."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+from rich.table import Table
+
+from embedding.cli.output import console, cost_line, error_line, number, print_rows, words
+
+if TYPE_CHECKING:
+    from embedding.archive import Archive
+
+#: Scalars worth a column for people, in this order; those that are zero or unknown throughout are left out.
+COLUMNS = (
+    "stretch", "pressure_difference", "pressure_top", "pressure_bottom", "volume_ratio", "voltage", "charge",
+)  # fmt: skip
+ROWS = 20
+
+
+def archive_summary(archive: Archive) -> dict[str, Any]:
+    """Everything an archive says about its run except the fields, as plain data."""
+    return {
+        "archive": archive.path,
+        **archive.run,
+        "result": asdict(archive.result),
+        "estimated_error": None if archive.error is None else asdict(archive.error),
+        "cost": None if archive.cost is None else asdict(archive.cost),
+        "steps": [asdict(step) for step in archive.steps],
+        "cuts": archive.cuts,
+        "units": archive.scalar_units,
+        "blocks": {name: archive.block(name).units for name in archive.blocks},
+        "plan": [asdict(decision) for decision in archive.plan.decisions],
+        "versions": archive.versions,
+        "scene": archive.scene,
+    }
+
+
+def print_archive(archive: Archive) -> None:
+    """Print the run of an archive for people: how it ended, what it cost, what is inside, and its last steps."""
+    run, result = archive.run, archive.result
+    print(f"{archive.path}: {run['name']}, {run['reduction']}, started {run['started']}")
+    rows = [("result", f"{words(result.name)}: {result.message}")]
+    if archive.error is not None:
+        rows.append(("estimated error", error_line(archive.error)))
+    if archive.cost is not None:
+        rows.append(("cost", cost_line(archive.cost)))
+    if archive.cuts:
+        rows.append(("cuts", f"{len(archive.cuts)} steps were retried shorter"))
+    rows += [(f"block {name}", ", ".join(archive.block(name).fields)) for name in archive.blocks]
+    rows.append(("made with", ", ".join(f"{name} {version}" for name, version in archive.versions.items())))
+    print_rows(rows)
+    if len(archive):
+        print()
+        console().print(_history(archive))
+
+
+def _history(archive: Archive) -> Table:
+    """One row a step: where on the path, how many iterations, and the scalars that say something."""
+    scalars, units = archive.scalars, archive.scalar_units
+    shown = [name for name in COLUMNS if name in scalars and any(map(_says_something, scalars[name]))]
+    table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
+    for heading in ("step", "stage", "mechanical", "field", "iterations"):
+        table.add_column(heading, justify="left" if heading == "stage" else "right")
+    for name in shown:
+        unit = "" if units[name] == "1" else f" [{units[name]}]"
+        table.add_column((name + unit).replace("[", r"\["), justify="right")
+    steps = archive.steps[-ROWS:]
+    if len(steps) < len(archive):
+        table.caption = f"the last {ROWS} of {len(archive)} steps; --json shows all"
+    for step in steps:
+        values = (number(step.scalars[name]) for name in shown)
+        table.add_row(
+            str(step.number), step.stage, f"{step.factor_mechanical:.4g}", f"{step.factor_field:.4g}",
+            str(len(step.iterations)), *values,
+        )  # fmt: skip
+    return table
+
+
+def _says_something(value: float) -> bool:
+    return math.isfinite(value) and value != 0.0
