@@ -13,7 +13,7 @@ from embedding.errors import Problem
 from embedding.scene.checks_field import FIELD_CHECKS
 from embedding.scene.loads import PressureField
 from embedding.scene.messages import choice, quoted
-from embedding.scene.part import Unavailable
+from embedding.scene.part import Unavailable, known
 from embedding.scene.shapes import Point
 from embedding.scene.symmetry import unsymmetric_field, unsymmetric_pressures, unsymmetric_vectors
 
@@ -94,7 +94,7 @@ def _infinitely_long(scene: Scene) -> Iterator[Problem]:
 def _volume_control(scene: Scene) -> Iterator[Problem]:
     shape = scene.shell.shape
     for number, stage in enumerate(scene.path):
-        if stage.volume_ratio is None:
+        if known(stage.volume_ratio) is None:
             continue
         path = f"path.{number}.volume_ratio"
         if not shape.closed:

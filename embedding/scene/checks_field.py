@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from embedding.errors import Problem
+from embedding.scene.part import known
 
 if TYPE_CHECKING:
     from embedding.scene.ambient import Electrode
@@ -14,13 +15,13 @@ if TYPE_CHECKING:
 
 def _coupled_shape(scene: Scene) -> Iterator[Problem]:
     shape = scene.shell.shape
-    if scene.ambient is not None and not shape.closed:
+    if known(scene.ambient) is not None and not shape.closed:
         reason = "this version couples only closed shells (sphere, infinite-cylinder) to a field"
         yield Problem("ambient", f'not allowed around a shape of kind "{shape.kind}": {reason}')
 
 
 def _ambient_radius(scene: Scene) -> Iterator[Problem]:
-    if scene.ambient is None or scene.ambient.radius is None:
+    if scene.ambient is None or known(scene.ambient.radius) is None:
         return
     outside = scene.shell.shape.size + scene.shell.thickness / 2
     if scene.ambient.radius <= outside:
@@ -42,7 +43,7 @@ def _electrodes_need_electric_field(scene: Scene) -> Iterator[Problem]:
 def _permeability(scene: Scene) -> Iterator[Problem]:
     if scene.ambient is None or scene.ambient.field != "magnetic":
         return
-    if scene.shell.relative_permeability is None:
+    if known(scene.shell.relative_permeability) is None:
         yield Problem("shell.relative_permeability", 'missing: needed when ambient.field is "magnetic"')
 
 
@@ -51,7 +52,7 @@ def _permittivity(scene: Scene) -> Iterator[Problem]:
     if scene.ambient is None or scene.ambient.field != "electric":
         return
     electrodes = _electrodes(scene)
-    if scene.shell.relative_permittivity is not None:
+    if known(scene.shell.relative_permittivity) is not None:
         return
     if len(electrodes) == 1:
         bare = "bottom" if "top" in electrodes else "top"
@@ -70,7 +71,7 @@ def _permittivity(scene: Scene) -> Iterator[Problem]:
 
 def _electrodes(scene: Scene) -> dict[str, Electrode]:
     faces = {"top": scene.faces.top, "bottom": scene.faces.bottom}
-    return {name: electrode for name, electrode in faces.items() if electrode is not None}
+    return {name: electrode for name, electrode in faces.items() if known(electrode) is not None}
 
 
 def _charged_cylinder(scene: Scene) -> Iterator[Problem]:

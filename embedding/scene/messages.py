@@ -58,8 +58,10 @@ def show(value: Any, unit: str = "") -> str:
         return "none"
     if isinstance(value, bool):
         return str(value).lower()
+    if isinstance(value, int) and abs(value) >= 10**18:
+        return "an integer of more than 18 digits"
     if isinstance(value, (int, float)):
-        return f"{_short(str(_plain(value)))} {unit}".rstrip()
+        return f"{int(value) if isinstance(value, int) else float(value)} {unit}".rstrip()
     if isinstance(value, str):
         return _short(value) or '""'
     if isinstance(value, Mapping):
@@ -79,12 +81,6 @@ def problems_of(error: ValidationError, model: type[BaseModel]) -> tuple[Problem
 def key_path(parts: Iterable[object]) -> str:
     """The dotted path; the number of an entry of a list counts from 0."""
     return ".".join(_short(str(part)) for part in parts)
-
-
-def _plain(value: int | float) -> int | float | str:
-    if isinstance(value, int) and abs(value) >= 10**18:
-        return "an integer of more than 18 digits"
-    return int(value) if isinstance(value, int) else float(value)
 
 
 def _short(text: str, limit: int = 60) -> str:

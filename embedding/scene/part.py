@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, NoReturn, Self
+from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeVar
 
 from pydantic import (
     BaseModel,
@@ -36,6 +36,20 @@ class _Broken:
 
 
 BROKEN = _Broken()
+T = TypeVar("T")
+
+
+def known(value: T) -> T:
+    """The value itself, unless it is wrong; needed before a comparison by identity, such as ``is None``.
+
+    Raises:
+        Unavailable: the field failed its own validation.
+    """
+    if value is BROKEN:
+        raise Unavailable
+    return value
+
+
 TOLERANT = {"tolerant": True}
 """Validation context in which wrong fields become ``BROKEN`` instead of errors."""
 

@@ -53,9 +53,10 @@ def unit_factor(unit: str, si: str) -> Decimal:
         quantity = registry.Quantity(Decimal(1), registry.parse_units(unit.replace("·", "*")))
         return Decimal(quantity.to(si).magnitude)
     except pint.UndefinedUnitError as error:
-        raise ValueError(f'unknown unit "{error.unit_names}"') from error
+        raise ValueError(f'unknown unit "{unit}"') from error
     except pint.DimensionalityError as error:
-        raise ValueError(f'"{unit}" is a unit of {error.dim1}') from error
+        dimension = str(error.dim1).strip(" ()").replace("[", "").replace("]", "")
+        raise ValueError(f'"{unit}" is a unit of {dimension}') from error
     except Exception as error:  # the unit library answers odd text with many kinds of error
         raise ValueError(f'"{unit}" is not a unit') from error
 
