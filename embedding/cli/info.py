@@ -39,7 +39,7 @@ def archive_summary(archive: Archive) -> dict[str, Any]:
 
 
 def print_archive(archive: Archive) -> None:
-    """Print the run of an archive for people: how it ended, what it cost, what is inside, and its last steps."""
+    """Print the run of an archive for people: how it ended, its cost, what is inside, its last steps."""
     run, result = archive.run, archive.result
     print(f"{archive.path}: {run['name']}, {run['reduction']}, started {run['started']}")
     rows = [("result", f"{words(result.name)}: {result.message}")]
