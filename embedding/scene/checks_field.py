@@ -21,12 +21,13 @@ def _coupled_shape(scene: Scene) -> Iterator[Problem]:
 
 
 def _ambient_radius(scene: Scene) -> Iterator[Problem]:
-    if scene.ambient is None or known(scene.ambient.radius) is None:
+    radius = known(scene.ambient.radius) if scene.ambient is not None else None
+    if radius is None:
         return
     outside = scene.shell.shape.size + scene.shell.thickness / 2
-    if scene.ambient.radius <= outside:
+    if radius <= outside:
         reason = f"must be greater than {outside} m, the size of the shell plus half its thickness"
-        yield Problem("ambient.radius", f"{scene.ambient.radius} m is not allowed: {reason}")
+        yield Problem("ambient.radius", f"{radius} m is not allowed: {reason}")
 
 
 def _electrodes_need_electric_field(scene: Scene) -> Iterator[Problem]:
@@ -70,8 +71,8 @@ def _permittivity(scene: Scene) -> Iterator[Problem]:
 
 
 def _electrodes(scene: Scene) -> dict[str, Electrode]:
-    faces = {"top": scene.faces.top, "bottom": scene.faces.bottom}
-    return {name: electrode for name, electrode in faces.items() if known(electrode) is not None}
+    faces = {"top": known(scene.faces.top), "bottom": known(scene.faces.bottom)}
+    return {name: electrode for name, electrode in faces.items() if electrode is not None}
 
 
 def _charged_cylinder(scene: Scene) -> Iterator[Problem]:

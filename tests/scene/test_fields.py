@@ -1,5 +1,7 @@
 """Every message about a single field: it names the path, the value, and what is allowed."""
 
+# ruff: noqa: E501 - one case per line, with the whole message
+
 from __future__ import annotations
 
 from fractions import Fraction
@@ -53,7 +55,10 @@ COMPONENTS = "must be a list of 3 components [x, y, z]"
         ("thin", f"shell.thickness: thin is not allowed: not a number with a unit: {LENGTH}"),
         ("0.2", f"shell.thickness: 0.2 is not allowed: text without a unit: {LENGTH}"),
         ("3 kg", f'shell.thickness: 3 kg is not allowed: "kg" is a unit of mass: {LENGTH}'),
-        ("3 MM", f'shell.thickness: 3 MM is not allowed: "MM" is a unit of substance / length ** 3: {LENGTH}'),
+        (
+            "3 MM",
+            f'shell.thickness: 3 MM is not allowed: "MM" is a unit of substance / length ** 3: {LENGTH}',
+        ),
         ("3 furlogs", f'shell.thickness: 3 furlogs is not allowed: unknown unit "furlogs": {LENGTH}'),
         ("3 m^", f'shell.thickness: 3 m^ is not allowed: "m^" is not a unit: {LENGTH}'),
     ],
@@ -238,7 +243,9 @@ def test_all_errors_come_at_once() -> None:
 
 
 def test_accepted_spellings() -> None:
-    built = Loads(pressure_top="1.1 kPa", pressure_bottom=PressureField(expression="x"), body_force=np.array([0, 0, -1]))
+    built = Loads(
+        pressure_top="1.1 kPa", pressure_bottom=PressureField(expression="x"), body_force=np.array([0, 0, -1])
+    )
     assert built.pressure_top == 1100.0
     assert built.body_force == (0.0, 0.0, -1.0)
     assert list(built.pressure_fields) == ["pressure_bottom"]
@@ -247,4 +254,7 @@ def test_accepted_spellings() -> None:
     assert Ambient(field="magnetic", applied_field=[0, 0, "2 kA/m"]).applied_field == (0.0, 0.0, 2000.0)
     assert Ambient(field="electric", applied_field=[0, 0, "2 kV/mm"]).applied_field == (0.0, 0.0, 2e6)
     assert MooneyRivlin(c1=1, c2=2).shear_modulus == 6.0
-    assert Shell(shape=Sphere(**SHAPES["sphere"]), thickness=1e-4, material=NeoHookean(**MATERIAL)).shape.size == 0.02
+    assert (
+        Shell(shape=Sphere(**SHAPES["sphere"]), thickness=1e-4, material=NeoHookean(**MATERIAL)).shape.size
+        == 0.02
+    )
