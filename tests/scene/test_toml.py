@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import math
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -137,29 +139,68 @@ def test_nothing_but_a_scene_error_comes_out(table: dict[str, Any]) -> None:
     assert all("\n" not in str(problem) for problem in caught.value.problems)
 
 
+def _leaves(node: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
+    items = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
+    return [path, *(leaf for key, value in items for leaf in _leaves(value, (*path, key)))]
+
+
+COMPLETE = tomllib.loads(
+    scene(
+        of_shell={"relative_permittivity": 2.0},
+        ambient={"field": "electric", "applied_field": [1, 2, 3]},
+        faces={"top": {"voltage": 1}},
+        loads={"pressure_top": {"expression": "x"}},
+        supports=[{"where": "surface", "fix": ["x"]}],
+        path=[{"name": "a"}, {"volume_ratio": None}],
+    ).to_toml()
+)
+JUNK = st.sampled_from(
+    [None, True, -1, 0, 1e300, math.nan, "", "x", "3 kg", "1 mm", [], [1, "x"], {}, {"kind": "disc"}]
+)
+
+
+@given(st.lists(st.tuples(st.sampled_from(_leaves(COMPLETE)[1:]), JUNK), min_size=1, max_size=3))
+def test_a_damaged_scene_is_refused_in_words(damage: list[tuple[tuple[Any, ...], Any]]) -> None:
+    table: Any = copy.deepcopy(COMPLETE)
+    for path, junk in damage:
+        node = table
+        try:
+            for key in path[:-1]:
+                node = node[key]
+            node[path[-1]] = junk
+        except (TypeError, KeyError, IndexError):
+            continue  # an earlier damage took the place away
+    try:
+        built = Scene.from_table(table)
+    except SceneError as error:
+        assert all(problem.path and "\n" not in problem.message for problem in error.problems)
+    else:
+        assert Scene.from_toml(built.to_toml()) == built
+
+
 @pytest.mark.parametrize(
     ("content", "message"),
     [
         (b"", "not a scene: it is empty"),
         (b"# nothing\n", "not a scene: it is empty"),
-        (b"a = 1\n[tool]\nb = 2\n", "not a scene: it has none of the keys name, shell, supports, loads, ambient, faces"),
+        (b"a = 1\n[tool]\nb = 2\n", "not a scene: it has none of the keys name, shell, supports, loads"),
         (b"name = \xff\n", "not UTF-8 text: byte 7 cannot be decoded"),
-        (b"{\"shell\": 1}", "not valid TOML: Invalid statement (at line 1, column 1)"),
-        (b"[shell]\nthickness = 0.2 mm\n", "not valid TOML: Expected newline or end of document"),
+        (b"{\"shell\": 1}", "not valid TOML: "),
+        (b"[shell]\nthickness = 0.2 mm\n", "not valid TOML: "),
         (b"name = " + b"[" * 20000, "not valid TOML: nested too deeply"),
-        (b"name = 2020-13-45T00:00:00", "not valid TOML: Invalid date or datetime (at line 1, column 27)"),
-        (b"name = " + b"1" * 5000, None),
+        (b"name = 2020-02-30T00:00:00", "not valid TOML: "),
+        (b"name = " + b"1" * 5000, "not valid TOML: "),
         (b"#" * 4_000_001, "too large for a scene file: more than 4000000 bytes"),
     ],
 )  # fmt: skip
-def test_unreadable_files(tmp_path: Path, content: bytes, message: str | None) -> None:
+def test_unreadable_files(tmp_path: Path, content: bytes, message: str) -> None:
     file = tmp_path / "scene.toml"
     file.write_bytes(content)
     with pytest.raises(SceneError) as caught:
         load_scene(file)
     assert len(caught.value.problems) == 1
     assert "\n" not in str(caught.value)
-    assert str(caught.value).startswith(f"{file}: {message or 'not valid TOML: '}")
+    assert str(caught.value).startswith(f"{file}: {message}")
     assert caught.value.source == str(file)
 
 
