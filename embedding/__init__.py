@@ -1,0 +1,97 @@
+"""Thin hyperelastic shells as interfaces inside the electric and magnetic fields around them.
+
+The public names below are loaded when they are first used, so that stating and checking a scene stays fast.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from embedding.api import solve
+    from embedding.archive import open_archive
+    from embedding.errors import ArchiveError, EmbeddingError, SceneError, SolveError
+    from embedding.plan import explain
+    from embedding.scene import (
+        Ambient,
+        Disc,
+        Discretisation,
+        EdgeTraction,
+        Electrode,
+        Faces,
+        InfiniteCylinder,
+        Loads,
+        Model,
+        MooneyRivlin,
+        NeoHookean,
+        Plate,
+        PressureField,
+        Scene,
+        Shell,
+        Solver,
+        Sphere,
+        Stage,
+        Support,
+        load_scene,
+    )
+    from embedding.solving import Listener, Result, Solution
+
+__version__ = "0.1.0"
+
+# Read once, when ngsolve loads OpenBLAS: more threads slow the many small dense blocks down, and change last digits.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+_HOMES = {
+    "embedding.api": ("solve",),
+    "embedding.archive": ("open_archive",),
+    "embedding.errors": ("ArchiveError", "EmbeddingError", "SceneError", "SolveError"),
+    "embedding.plan": ("explain",),
+    "embedding.scene": (
+        "Ambient", "Disc", "Discretisation", "EdgeTraction", "Electrode", "Faces", "InfiniteCylinder", "Loads",
+        "Model", "MooneyRivlin", "NeoHookean", "Plate", "PressureField", "Scene", "Shell", "Solver", "Sphere",
+        "Stage", "Support", "load_scene",
+    ),
+    "embedding.solving": ("Listener", "Result", "Solution"),
+}  # fmt: skip
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = [
+    "Ambient",
+    "ArchiveError",
+    "Disc",
+    "Discretisation",
+    "EdgeTraction",
+    "Electrode",
+    "EmbeddingError",
+    "Faces",
+    "InfiniteCylinder",
+    "Listener",
+    "Loads",
+    "Model",
+    "MooneyRivlin",
+    "NeoHookean",
+    "Plate",
+    "PressureField",
+    "Result",
+    "Scene",
+    "SceneError",
+    "Shell",
+    "Solution",
+    "SolveError",
+    "Solver",
+    "Sphere",
+    "Stage",
+    "Support",
+    "explain",
+    "load_scene",
+    "open_archive",
+    "solve",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(_HOME_OF[name]), name)

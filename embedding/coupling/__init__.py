@@ -1,0 +1,1 @@
+"""Shell and field as one Lagrangian: unknowns, forms, face tractions."""

@@ -1,0 +1,184 @@
+"""The one Lagrangian of the coupled problem, as an NGSolve form whose derivative is the Newton matrix.
+
+    L = int T Psi dA  +  dead loads  +  p~ (V - V_target)                          shell
+      - int 1/2 eps J |F^{-T} Grad Phi|^2 dX  -  far field                         ambient, moved by y + w
+      - int 1/2 eps_r [...] T dA                                                   field inside the shell
+      + int tau_t . (u + (T/2) lambda n - y_t) + tau_b . (u - (T/2) lambda n - y_b) dA      faces (opened interface)
+
+u displaces the mid-surface, y_t and y_b the faces, w (frozen here) the ambient's interior. Stationarity in tau places
+the faces, in y makes -tau the traction on the face, in u gives all its work, in Phi the field. With the interface
+closed, y_t = y_b = u and tau drops out. Source: theory page, "The coupled Lagrangian".
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ngsolve import CF, BilinearForm, Grad, InnerProduct, Parameter, Variation
+
+from embedding.ambient.energy import far_field_energy, field_energy
+from embedding.ambient.motion import SideMotion
+from embedding.ambient.transmission import shell_field_energy
+from embedding.coupling.physics import FieldPhysics, Physics
+from embedding.coupling.unknowns import SIDES, Unknowns
+from embedding.geometry.domain import Domain
+from embedding.shell.kinematics import Kinematics, surface_gradient
+from embedding.shell.loads import dead_load_energy, enclosed_volume, follower_residual
+
+
+class Factors:
+    """The load parameters of a form: strength of the mechanical loads and of the field, and the target volume."""
+
+    def __init__(self) -> None:
+        self.mechanical = Parameter(0.0)
+        self.field = Parameter(0.0)
+        self.volume = Parameter(1.0)
+
+
+class Lagrangian:
+    """Builds the forms of a coupled problem on ``unknowns``; symmetric unless a load has no potential."""
+
+    def __init__(
+        self, domain: Domain, physics: Physics, unknowns: Unknowns, motions: dict[str, SideMotion], factors: Factors
+    ) -> None:
+        self.domain, self.physics, self.unknowns = domain, physics, unknowns
+        self.motions, self.factors = motions, factors
+        self.measure = domain.reduction.measure
+
+    # -- what both the joint form and the potential's own form are made of
+
+    def axial(self, values: dict[str, Any]) -> Any:
+        """The axial stretch of plane strain: prescribed, or its unknown."""
+        return values.get("axial", self.physics.axial_stretch)
+
+    def kinematics(self, values: dict[str, Any], displacement: str = "u") -> Kinematics:
+        """Kinematics of the mid-surface (or of a face) for the unknowns ``values``."""
+        return Kinematics(self.domain.reduction, self.domain.normal, values[displacement], self.axial(values))
+
+    def face(self, name: str) -> str:
+        """The displacement that moves face ``name`` ("t" or "b")."""
+        return f"y_{name}" if self.unknowns.opened else "u"
+
+    def side_potential_gradient(self, side: str, values: dict[str, Any]) -> Any:
+        """Reference gradient of the potential on ``side`` in the elements that touch the shell."""
+        gradient = Grad(values["phi"])
+        lifted = "jump" in values and side == self._field.electrodes.lifted
+        return gradient + Grad(values["jump"]) if lifted else gradient
+
+    def side_energies(self, values: dict[str, Any], side: str, face: str) -> list[Any]:
+        """Field energy of one side: where the shell's motion reaches, and beyond."""
+        w, domain = self.motions[side].w, self.domain
+        moved, slope = values[face] + w, Grad(values[face]) + Grad(w)
+        gradient = self.side_potential_gradient(side, values)
+        near = domain.near(side)
+        terms = [field_energy(domain.reduction, moved, slope, gradient, self.physics.axial_stretch) * domain.volume(near)]
+        if near != domain.materials(side):
+            far = field_energy(domain.reduction, w, Grad(w), Grad(values["phi"]), self.physics.axial_stretch)
+            terms.append(far * domain.volume(side))
+        return terms
+
+    def field_energies(self, values: dict[str, Any]) -> list[Any]:
+        """Every term of the field energy: both sides, the far field, and the inside of the shell."""
+        field, domain = self._field, self.domain
+        terms = []
+        for name, side in SIDES.items():
+            terms += self.side_energies(values, side, self.face(name))
+        if not field.grounded:
+            applied = self.factors.field * CF(field.applied)
+            terms.append(
+                far_field_energy(domain.reduction, values["phi"], applied, domain.sizes.radius) * domain.surface("outer")
+            )
+        if field.contrast is not None and "jump" in values:
+            terms.append(self._inside_shell(values, field.contrast) * self.domain.surface())
+        return terms
+
+    def _inside_shell(self, values: dict[str, Any], contrast: float) -> Any:
+        sign = 1.0 if self._field.electrodes.lifted == "outside" else -1.0
+        half_jump = 0.5 * surface_gradient(values["jump"])
+        mean_gradient = surface_gradient(values["phi"]) + half_jump
+        jump = sign * _trace(values["jump"])
+        kinematics = self.kinematics(values)
+        return self.measure * shell_field_energy(kinematics, self.physics.thickness, contrast, jump, mean_gradient)
+
+    @property
+    def _field(self) -> FieldPhysics:
+        field = self.physics.field
+        if field is None:
+            raise RuntimeError("this scene has no field")
+        return field
+
+    # -- the forms
+
+    def joint_form(self) -> BilinearForm:
+        """The form of all unknowns together; w and the load factors are parameters."""
+        trial = self.unknowns.trial
+        residuals = self._residuals()
+        form = BilinearForm(self.unknowns.space, symmetric=not residuals)
+        for term in self._shell_energies(trial):
+            form += Variation(term).Compile()
+        if self.physics.field is not None:
+            for term in self.field_energies(trial):
+                form += Variation(-1 * term).Compile()
+        for term in residuals:
+            form += term.Compile()
+        return form
+
+    def _shell_energies(self, values: dict[str, Any]) -> list[Any]:
+        physics, measure = self.physics, self.measure
+        kinematics = self.kinematics(values)
+        u = _trace(values["u"])
+        terms = [self.elastic_energy(values) * self.domain.surface()]
+        terms += dead_load_energy(self.domain, physics.loads, physics.thickness, u, self.factors.mechanical)
+        if self.pressure_has_potential:
+            terms.append(measure * self._pressure_energy(kinematics, u, values.get("pressure")) * self.domain.surface())
+        for i, motion in enumerate(self.unknowns.rigid):
+            terms.append(measure * values[f"rigid{i}"] * InnerProduct(motion, u) * self.domain.surface())
+        if self.unknowns.opened:
+            half = physics.thickness / 2
+            for name, offset in (("t", half), ("b", -half)):
+                gap = u + offset * kinematics.director - _trace(values[f"y_{name}"])
+                terms.append(measure * InnerProduct(_trace(values[f"tau_{name}"]), gap) * self.domain.surface())
+        return terms
+
+    def elastic_energy(self, values: dict[str, Any]) -> Any:
+        """T Psi times the measure: elastic energy per reference area."""
+        return self.measure * self.physics.thickness * self.physics.law.energy(self.kinematics(values))
+
+    @property
+    def pressure_has_potential(self) -> bool:
+        """Uniform pressures in and on a closed shell do work on its volume alone."""
+        physics, loads = self.physics, self.physics.loads
+        uniform = self.domain.closed and loads.uniform and loads.variant != "as-published" and not physics.axial_free
+        return physics.volume_controlled or (uniform and loads.pressed)
+
+    def _pressure_energy(self, kinematics: Kinematics, u: Any, unknown: Any | None) -> Any:
+        volume = enclosed_volume(self.domain, kinematics, u)
+        if unknown is None:
+            return self.factors.mechanical * self.physics.loads.difference * volume
+        reference = self.reference_volume / self.domain.shell_integral(1.0)
+        return unknown * (volume - self.factors.volume * reference)
+
+    @property
+    def reference_volume(self) -> float:
+        """Volume enclosed by the meshed mid-surface (plane strain: per length), at the prescribed axial stretch."""
+        normal = self.domain.normal
+        share = 2 if self.domain.reduction.name == "plane-strain" else 3
+        return self.domain.shell_integral(InnerProduct(self.domain.reduction.position, normal) / share)
+
+    def _residuals(self) -> list[Any]:
+        physics = self.physics
+        if self.pressure_has_potential or not physics.loads.pressed:
+            return []
+        kinematics = self.kinematics(self.unknowns.trial)
+        factor = self.factors.mechanical
+        v = self.unknowns.test["u"]
+        terms = follower_residual(self.domain, physics.loads, physics.thickness, kinematics, v, factor)
+        if physics.axial_free and physics.loads.rim_is_free and physics.loads.variant != "net":
+            stretch, test = self.unknowns.trial["axial"], self.unknowns.test["axial"]
+            work = self.measure * factor * physics.thickness * physics.loads.mean * test / stretch
+            terms.append(-1 * work * self.domain.surface())
+        return terms
+
+
+def _trace(value: Any) -> Any:
+    return value.Trace() if hasattr(value, "Trace") else value

@@ -1,0 +1,41 @@
+"""The dimensionless statement of a coupled problem: what the residual needs to know, and nothing of the scene file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from embedding.ambient.potential import Electrodes
+from embedding.shell.laws import Law
+from embedding.shell.loads import MechanicalLoads
+
+
+@dataclass(frozen=True)
+class FieldPhysics:
+    """The field: electrodes, the shell's relative permittivity (None between electrodes at one potential), surroundings.
+
+    ``applied`` is the applied field (mesh components), ``odd_planes`` the mirror planes on which the potential is 0.
+    """
+
+    electrodes: Electrodes
+    contrast: float | None
+    applied: tuple[float, ...]
+    grounded: bool
+    odd_planes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Physics:
+    """The shell, its loads and supports, and the field around it; lengths in shell sizes, stresses in shear moduli.
+
+    ``supports`` lists (where, component) pairs held at zero; ``opened`` places the faces at their true positions.
+    """
+
+    law: Law
+    thickness: float
+    loads: MechanicalLoads
+    supports: tuple[tuple[str, int], ...]
+    axial_free: bool
+    axial_stretch: float
+    volume_controlled: bool
+    opened: bool
+    field: FieldPhysics | None

@@ -1,0 +1,179 @@
+"""A coupled problem ready to be solved: state, forms and the operations a Newton step is made of."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from ngsolve import BND, BilinearForm, FESpace, GridFunction, InnerProduct, Variation
+
+from embedding.ambient.motion import SideMotion
+from embedding.coupling.lagrangian import Factors, Lagrangian
+from embedding.coupling.linear import solve_linear
+from embedding.coupling.physics import Physics
+from embedding.coupling.tractions import FaceTractions
+from embedding.coupling.unknowns import SIDES, Unknowns
+from embedding.geometry.domain import Domain
+from embedding.geometry.spaces import as_bits
+
+
+class System:
+    """The coupled shell, field and moving ambient on one mesh, with its present state.
+
+    All quantities are dimensionless. The state is ``unknowns.state`` plus the ambient's interior motion.
+    """
+
+    def __init__(self, domain: Domain, physics: Physics) -> None:
+        self.domain, self.physics = domain, physics
+        self.factors = Factors()
+        self.unknowns = Unknowns(domain, physics)
+        self.motions = {
+            side: SideMotion(domain, side, self.unknowns.trace) for side in SIDES.values() if physics.field is not None
+        }
+        self.lagrangian = Lagrangian(domain, physics, self.unknowns, self.motions, self.factors)
+        self.form = self.lagrangian.joint_form()
+        self.potential = PotentialSolve(self.lagrangian) if physics.field is not None else None
+        self.tractions = {face: FaceTractions(self.lagrangian, face) for face in self.unknowns.faces}
+        if "axial" in self.unknowns:
+            self.unknowns.field("axial").vec[0] = 1.0
+        self.place_faces()
+        self._held: tuple[str, ...] = ()
+        self._free = self.unknowns.free()
+        self._residual = self.unknowns.state.vec.CreateVector()
+
+    def place_faces(self) -> None:
+        """Put both faces where the present displacement of the mid-surface has them."""
+        if not self.unknowns.opened:
+            return
+        values = {name: self.unknowns.field(name) for name in self.unknowns.names}
+        director = self.lagrangian.kinematics(values).director
+        for face, sign in (("t", 0.5), ("b", -0.5)):
+            y = self.unknowns.field(f"y_{face}")
+            y.Set(values["u"] + sign * self.physics.thickness * director, BND, definedon=self.domain.shell)
+            y.vec.FV().NumPy()[~self.unknowns.trace.free] = 0.0
+
+    def load(self, mechanical: float, field: float, volume: float | None, pressure: float | None = None) -> None:
+        """Set the load factors.
+
+        Where the path controls the volume somewhere, p_t - p_b is an unknown: free when ``volume`` (a ratio) is
+        given, else held at ``pressure``.
+        """
+        self.factors.mechanical.Set(mechanical)
+        self.factors.field.Set(field)
+        held: tuple[str, ...] = ()
+        if "pressure" in self.unknowns:
+            if volume is None:
+                held = ("pressure",)
+                self.unknowns.field("pressure").vec[0] = pressure
+            else:
+                self.factors.volume.Set(volume)
+        if held != self._held:
+            self._held, self._free = held, self.unknowns.free(held)
+        if self.potential is not None:
+            self.potential.prescribe(field)
+
+    @property
+    def free_count(self) -> int:
+        """Number of free unknowns of the joint system."""
+        return int(self._free.NumSet())
+
+    def follow(self) -> bool:
+        """Let the ambient's mesh follow the faces; False if elements would turn over."""
+        face_of = {side: self.lagrangian.face(face) for face, side in SIDES.items()}
+        return all(motion.follow(self.unknowns.field(face_of[side]).vec) for side, motion in self.motions.items())
+
+    def newton_update(self) -> tuple[Any, float]:
+        """Solve the linearised joint system; returns the step to add and its decrement.
+
+        The decrement is sqrt(|r . step| / (T A)), an energy norm per shear modulus and shell volume.
+        """
+        vector = self.unknowns.state.vec
+        self.form.Apply(vector, self._residual)
+        self.form.AssembleLinearization(vector)
+        step = solve_linear(self.form.mat, self._residual, self._free, symmetric=self.symmetric)
+        step *= -1.0
+        mask = np.fromiter((self._free[i] for i in range(len(self._free))), bool, len(self._free))
+        work = float(np.dot(self._residual.FV().NumPy()[mask], step.FV().NumPy()[mask]))
+        size = self.physics.thickness * self.domain.shell_integral(1.0)
+        return step, float(np.sqrt(abs(work) / size))
+
+    @property
+    def symmetric(self) -> bool:
+        """Do all loads have a potential, so that the Newton matrix is symmetric?"""
+        return self.lagrangian.pressure_has_potential or not self.physics.loads.pressed
+
+    @property
+    def min_jacobian(self) -> float:
+        """Smallest det F of the moving ambient (1 where there is none)."""
+        return min((motion.min_jacobian for motion in self.motions.values()), default=1.0)
+
+    def displacement_norm(self, vector: Any) -> float:
+        """Root mean square over the shell of the displacement part of a state-sized ``vector``, in shell sizes."""
+        field = GridFunction(self.unknowns.trace.space)
+        field.vec.FV().NumPy()[:] = vector.FV().NumPy()[self.unknowns.range("u")]
+        squared = self.domain.shell_integral(InnerProduct(field, field))
+        return float(np.sqrt(squared / self.domain.shell_integral(1.0)))
+
+    def save(self) -> Any:
+        """A copy of the whole state, for :meth:`restore`."""
+        motions = {side: np.array(motion.vector.FV().NumPy()) for side, motion in self.motions.items()}
+        return np.array(self.unknowns.state.vec.FV().NumPy()), motions
+
+    def restore(self, saved: Any) -> None:
+        """Go back to a state returned by :meth:`save`."""
+        state, motions = saved
+        self.unknowns.state.vec.FV().NumPy()[:] = state
+        for side, motion in self.motions.items():
+            motion.vector.FV().NumPy()[:] = motions[side]
+
+
+class PotentialSolve:
+    """The potential alone on the present, frozen geometry: linear, definite, solved before every joint step."""
+
+    def __init__(self, lagrangian: Lagrangian) -> None:
+        unknowns = lagrangian.unknowns
+        if unknowns.potential is None:
+            raise RuntimeError("this scene has no field")
+        self._spaces, self._unknowns = unknowns.potential, unknowns
+        self._names = ["phi"] + ["jump"] * ("jump" in unknowns)
+        space = FESpace(self._spaces.spaces)
+        values: dict[str, Any] = {name: unknowns.field(name) for name in unknowns.names}
+        values.update(zip(self._names, space.TrialFunction(), strict=True))
+        self.form = BilinearForm(space, symmetric=True)
+        for term in lagrangian.field_energies(values):
+            self.form += Variation(term).Compile()
+        self._free = as_bits(self._spaces.free)
+        self._space = space
+
+    def prescribe(self, factor: float) -> None:
+        """Write the electrodes' potentials into the state."""
+        fields = [self._unknowns.field(name).vec for name in self._names]
+        self._spaces.prescribe(fields[0], fields[1] if len(fields) > 1 else None, factor)
+
+    def energy(self) -> float:
+        """Field energy of the present state, dimensionless: both sides, the far field and the inside of the shell."""
+        return float(self.form.Energy(self._gather().vec))
+
+    def charge(self) -> float:
+        """Total charge on the shell, dimensionless: how the energy answers to a shift of its potential."""
+        state = self._gather()
+        residual = state.vec.CreateVector()
+        self.form.Apply(state.vec, residual)
+        on_shell = self._spaces.constant_on_shell()
+        return float(residual.FV().NumPy()[: len(on_shell)][on_shell].sum())
+
+    def solve(self) -> None:
+        """Solve for the potential and write it into the state."""
+        state = self._gather()
+        residual = state.vec.CreateVector()
+        self.form.Apply(state.vec, residual)
+        self.form.AssembleLinearization(state.vec)
+        state.vec.data -= solve_linear(self.form.mat, residual, self._free, symmetric=True)
+        for name, component in zip(self._names, state.components, strict=True):
+            self._unknowns.field(name).vec.data = component.vec
+
+    def _gather(self) -> GridFunction:
+        state = GridFunction(self._space)
+        for name, component in zip(self._names, state.components, strict=True):
+            component.vec.data = self._unknowns.field(name).vec
+        return state

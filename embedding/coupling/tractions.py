@@ -1,0 +1,92 @@
+"""Face tractions: p_t and p_b, and the tangential tractions, as fields on the shell.
+
+The derivative of the ambient's Lagrangian with respect to the face's displacement is minus the force on the face. With
+the interface opened it is an unknown of the Newton system (tau); closed, it is recovered from the nodal forces of each
+side with the shell's mass matrix. Per reference area the traction is -tau; with m = cof(F_face) N the face's area
+vector,
+
+    p_t = tau_t . m_t / (m_t . m_t),     p_b = - tau_b . m_b / (m_b . m_b),
+
+so that a pressure pushes on its face: along -n at the top, along +n at the bottom. Source: theory page, "Face
+tractions".
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ngsolve import BilinearForm, GridFunction, InnerProduct, Variation, sqrt
+
+from embedding.coupling.lagrangian import Lagrangian
+from embedding.coupling.unknowns import SIDES
+from embedding.geometry.spaces import as_bits
+from embedding.shell.kinematics import Kinematics
+
+SIGN = {"t": 1.0, "b": -1.0}
+
+
+class FaceTractions:
+    """The field's traction on face ``face`` ("t" or "b") in the present state."""
+
+    def __init__(self, lagrangian: Lagrangian, face: str) -> None:
+        unknowns, domain = lagrangian.unknowns, lagrangian.domain
+        self.face = face
+        self._domain = domain
+        if unknowns.opened:
+            self.tau, displacement = unknowns.field(f"tau_{face}"), unknowns.field(f"y_{face}")
+            self._recovery = None
+        else:
+            self.tau, displacement = GridFunction(unknowns.trace.space), unknowns.field("u")
+            self._recovery = NodalForces(lagrangian, face)
+        self.kinematics = Kinematics(domain.reduction, domain.normal, displacement, lagrangian.physics.axial_stretch)
+
+    def refresh(self) -> None:
+        """Bring ``tau`` up to date with the state (nothing to do where it is an unknown)."""
+        if self._recovery is not None:
+            self._recovery.recover(self.tau)
+
+    def pressure(self, kinematics: Kinematics | None = None) -> Any:
+        """p_t or p_b, dimensionless; ``kinematics`` replaces the face's own (for evaluation on the axis)."""
+        k = kinematics or self.kinematics
+        return SIGN[self.face] * InnerProduct(self.tau, k.area_vector) / k.surface_stretch_squared
+
+    def tangential(self, kinematics: Kinematics | None = None) -> Any:
+        """Tangential traction vector per deformed face area, dimensionless, shape (d,)."""
+        k = kinematics or self.kinematics
+        normal_part = InnerProduct(self.tau, k.area_vector) / k.surface_stretch_squared
+        return -1 * (self.tau - normal_part * k.area_vector) / sqrt(k.surface_stretch_squared)
+
+    def mean_pressure(self) -> float:
+        """Mean of the pressure over the reference mid-surface."""
+        return self._domain.shell_integral(self.pressure()) / self._domain.shell_integral(1.0)
+
+    def force(self) -> tuple[float, ...]:
+        """Resultant of the traction, mesh components."""
+        return tuple(-self._domain.shell_integral(self.tau[i]) for i in range(self._domain.mesh.dim))
+
+
+class NodalForces:
+    """Traction of one side of a closed interface: nodal forces of the side's field energy over the mass matrix."""
+
+    def __init__(self, lagrangian: Lagrangian, face: str) -> None:
+        unknowns, domain = lagrangian.unknowns, lagrangian.domain
+        space = unknowns.trace.space
+        motion = space.TrialFunction()
+        values = {name: unknowns.field(name) for name in unknowns.names if name in ("phi", "jump")}
+        values["face"] = motion
+        self._force = BilinearForm(space)
+        for term in lagrangian.side_energies(values, SIDES[face], "face"):
+            self._force += Variation(-1 * term).Compile()
+        mass = BilinearForm(space, symmetric=True)
+        trial, test = space.TnT()
+        mass += domain.reduction.measure * InnerProduct(trial.Trace(), test.Trace()) * domain.surface()
+        mass.Assemble()
+        self._mass = mass
+        self._inverse = mass.mat.Inverse(as_bits(unknowns.trace.free), inverse="sparsecholesky")
+        self._displacement = unknowns.field("u")
+
+    def recover(self, tau: GridFunction) -> None:
+        """Write the recovered tau into the grid function ``tau``."""
+        forces = tau.vec.CreateVector()
+        self._force.Apply(self._displacement.vec, forces)
+        tau.vec.data = self._inverse * forces

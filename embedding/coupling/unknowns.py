@@ -1,0 +1,119 @@
+"""The unknowns of a coupled problem, by name: one product space, its free unknowns, trial and test functions.
+
+===========  ===================================================================
+name         unknown
+===========  ===================================================================
+u            displacement of the mid-surface
+y_t, y_b     displacement of the top and bottom face (opened interface only)
+tau_t, tau_b multipliers of the faces' places, minus the face tractions
+phi, jump    potential and its jump
+pressure     p_t - p_b under volume control
+axial        axial stretch of an infinite cylinder with free ends
+rigid        multipliers that hold free rigid motions
+===========  ===================================================================
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from ngsolve import FESpace, GridFunction, NumberSpace
+
+from embedding.ambient.motion import symmetry_components
+from embedding.ambient.potential import PotentialSpaces
+from embedding.coupling.physics import Physics
+from embedding.geometry.domain import Domain
+from embedding.geometry.spaces import Mask, TraceSpace, as_bits, plane_mask, scalar_mask
+
+FACES = ("t", "b")
+SIDES = {"t": "outside", "b": "inside"}
+
+
+class Unknowns:
+    """Named components of the coupled product space, with the state vector and the mask of free unknowns."""
+
+    def __init__(self, domain: Domain, physics: Physics) -> None:
+        self.domain = domain
+        self.faces = FACES if physics.field is not None else ()
+        self.opened = physics.opened and physics.field is not None
+        self.potential = _potential(domain, physics)
+        self.trace = _displacement(domain, physics.supports)
+        self._parts: dict[str, tuple[Any, Mask]] = {"u": (self.trace.space, self.trace.free)}
+        if self.opened:
+            for face in self.faces:
+                self._parts[f"y_{face}"] = (self.trace.space, self.trace.free)
+                self._parts[f"tau_{face}"] = (self.trace.space, self.trace.free)
+        if self.potential is not None:
+            masks = [self.potential.free_phi] + ([self.potential.jump.free] if self.potential.jump else [])
+            for name, space, mask in zip(("phi", "jump"), self.potential.spaces, masks, strict=False):
+                self._parts[name] = (space, mask)
+        numbers = ["pressure"] * physics.volume_controlled + ["axial"] * physics.axial_free
+        self.rigid = free_rigid_motions(domain, self.trace)
+        for name in [*numbers, *(f"rigid{i}" for i in range(len(self.rigid)))]:
+            self._parts[name] = (NumberSpace(domain.mesh), np.ones(1, bool))
+        self.names = tuple(self._parts)
+        self.space = FESpace([space for space, _ in self._parts.values()])
+        self.state = GridFunction(self.space)
+        self.trial = dict(zip(self.names, self.space.TrialFunction(), strict=True))
+        self.test = dict(zip(self.names, self.space.TestFunction(), strict=True))
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._parts
+
+    def field(self, name: str) -> Any:
+        """The grid function of component ``name`` of the state."""
+        return self.state.components[self.names.index(name)]
+
+    def range(self, name: str) -> slice:
+        """Where the unknowns of ``name`` lie in the state vector."""
+        sizes = [space.ndof for space, _ in self._parts.values()]
+        start = sum(sizes[: self.names.index(name)])
+        return slice(start, start + sizes[self.names.index(name)])
+
+    def free(self, held: tuple[str, ...] = ()) -> Any:
+        """Bits of the free unknowns; components named in ``held`` count as prescribed."""
+        masks = [mask & (name not in held) for name, (_, mask) in self._parts.items()]
+        return as_bits(np.concatenate(masks))
+
+    @property
+    def count(self) -> dict[str, int]:
+        """Number of free unknowns by name."""
+        return {name: int(mask.sum()) for name, (_, mask) in self._parts.items()}
+
+
+def _potential(domain: Domain, physics: Physics) -> PotentialSpaces | None:
+    field = physics.field
+    if field is None:
+        return None
+    return PotentialSpaces(domain, field.electrodes, field.grounded, field.applied, field.odd_planes)
+
+
+def _displacement(domain: Domain, supports: tuple[tuple[str, int], ...]) -> TraceSpace:
+    """Displacement space of the mid-surface with symmetry, axis and supports held."""
+    trace = TraceSpace(domain.mesh, domain.sizes.order)
+    for axis in symmetry_components(domain):
+        trace.fix(axis, plane_mask(trace.scalar, axis))
+    for where, component in supports:
+        region = domain.shell if where == "surface" else domain.mesh.BBoundaries(where)
+        trace.fix(component, scalar_mask(trace.scalar, region))
+    return trace
+
+
+def free_rigid_motions(domain: Domain, trace: TraceSpace) -> list[Any]:
+    """Rigid motions that the supports and mirror planes leave free, as coefficient functions of shape (d,)."""
+    from ngsolve import BND
+
+    motions = domain.reduction.rigid_motions()
+    held = ~trace.free
+    field = GridFunction(trace.space)
+    columns = []
+    for motion in motions:
+        field.Set(motion, BND, definedon=domain.shell)
+        columns.append(np.array(field.vec.FV().NumPy())[held])
+    if not held.any():
+        return motions
+    _, sizes, rows = np.linalg.svd(np.array(columns).T, full_matrices=True)
+    rank = int((sizes > 1e-6 * max(1.0, sizes.max(initial=0.0))).sum())
+    free = rows[rank:]
+    return [sum((float(c) * m for c, m in zip(row, motions, strict=True)), 0 * motions[0]) for row in free]

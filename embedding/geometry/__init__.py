@@ -1,0 +1,1 @@
+"""Mid-surfaces, the interface inside the ambient, its sides, and the dimensional reductions."""

@@ -1,0 +1,83 @@
+"""Finite element spaces whose unknowns live on the shell but whose functions reach into the ambient.
+
+A trace space keeps just the degrees of freedom of ``VectorH1`` (or ``H1``) that lie on the shell. On the shell they
+describe a surface field; the same basis functions, read in the volume, extend it into the elements that touch it.
+``Compress`` loses componentwise Dirichlet flags, so the fixed unknowns are kept here as plain boolean arrays.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from ngsolve import EDGE, FACE, H1, VERTEX, BitArray, Compress, Mesh, NodeId, VectorH1
+
+Mask = npt.NDArray[np.bool_]
+ON_PLANE = 1e-9
+
+
+def scalar_mask(space: Any, region: Any) -> Mask:
+    """Degrees of freedom of a scalar space that lie on ``region``, as a boolean array of length ``space.ndof``."""
+    return as_mask(space.GetDofs(region))
+
+
+def as_mask(bits: BitArray) -> Mask:
+    """A ``BitArray`` as a boolean array."""
+    return np.fromiter((bits[i] for i in range(len(bits))), bool, len(bits))
+
+
+def as_bits(mask: Mask) -> BitArray:
+    """A boolean array as a ``BitArray``."""
+    bits = BitArray(len(mask))
+    bits.Clear()
+    for i in np.flatnonzero(mask):
+        bits.Set(int(i))
+    return bits
+
+
+def plane_mask(space: Any, axis: int) -> Mask:
+    """Unknowns of a scalar H1 ``space`` on the coordinate plane number ``axis`` (or on the axis of revolution).
+
+    Found from the positions of the mesh's vertices: names of edges on degenerate or glued faces cannot be trusted.
+    """
+    mesh: Mesh = space.mesh
+    on = {v.nr: abs(v.point[axis]) < ON_PLANE for v in mesh.vertices}
+    mask = np.zeros(space.ndof, bool)
+    nodes = [(VERTEX, mesh.vertices), (EDGE, mesh.edges)] + ([(FACE, mesh.faces)] if mesh.dim == 3 else [])
+    for kind, group in nodes:
+        for node in group:
+            corners = [node.nr] if kind == VERTEX else [v.nr for v in node.vertices]
+            if all(on[c] for c in corners):
+                mask[[d for d in space.GetDofNrs(NodeId(kind, node.nr)) if d >= 0]] = True
+    return mask
+
+
+class TraceSpace:
+    """``VectorH1`` (or ``H1``) restricted to the unknowns on the shell, with its own book of fixed components."""
+
+    def __init__(self, mesh: Mesh, order: int, *, vector: bool = True) -> None:
+        self.scalar = H1(mesh, order=order)
+        self.components = mesh.dim if vector else 1
+        full = VectorH1(mesh, order=order) if vector else self.scalar
+        self._on_shell = scalar_mask(self.scalar, mesh.Boundaries("shell"))
+        self.space = Compress(full, as_bits(np.tile(self._on_shell, self.components)))
+        self._fixed = np.zeros((self.components, self.scalar.ndof), bool)
+        if self.space.ndof != self.components * int(self._on_shell.sum()):
+            raise RuntimeError("the trace space lost unknowns: component blocks are not where they were expected")
+
+    def fix(self, component: int, mask: Mask) -> None:
+        """Hold ``component`` on the unknowns of ``mask`` (length: unknowns of the scalar space)."""
+        self._fixed[component] |= mask
+
+    @property
+    def free(self) -> Mask:
+        """Free unknowns, in the numbering of ``space``."""
+        return ~np.concatenate([fixed[self._on_shell] for fixed in self._fixed])
+
+    def vertex_unknowns(self) -> Mask:
+        """Unknowns that are values at vertices: a constant field is 1 there and 0 elsewhere (scalar spaces)."""
+        mask = np.zeros(self.scalar.ndof, bool)
+        mask[: self.scalar.mesh.nv] = True
+        out: Any = np.tile(mask[self._on_shell], self.components)
+        return np.asarray(out, bool)

@@ -1,0 +1,37 @@
+"""A plan: what will be modelled, what is left out, and why; each decision a topic, a choice and a sentence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from embedding.geometry.domain import MeshSizes
+from embedding.geometry.reduction import Reduction
+
+
+@dataclass(frozen=True)
+class Decision:
+    """One choice of the plan, with the reason and the number it was based on."""
+
+    topic: str
+    choice: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Everything the solver needs to know beyond the scene; sizes are relative to the size of the shape.
+
+    ``odd_planes`` are mirror planes across which the potential changes sign.
+    """
+
+    reduction: Reduction
+    sizes: MeshSizes
+    opened: bool
+    odd_planes: tuple[str, ...]
+    decisions: tuple[Decision, ...]
+
+    def text(self) -> str:
+        """The decisions as aligned lines."""
+        topic = max(len(d.topic) for d in self.decisions)
+        choice = max(len(d.choice) for d in self.decisions)
+        return "\n".join(f"{d.topic:<{topic}}  {d.choice:<{choice}}  {d.reason}" for d in self.decisions)

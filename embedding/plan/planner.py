@@ -1,0 +1,96 @@
+"""From a scene to a plan: reduction, theory, field, interface, mesh; decided before anything is meshed."""
+
+from __future__ import annotations
+
+from embedding.geometry.domain import MeshSizes
+from embedding.plan.decisions import Decision, Plan
+from embedding.plan.symmetry import choose_reduction, odd_planes
+from embedding.scene import Scene
+
+FAR_RADIUS = 4.0
+SHELL_SIZE = {"3d": 0.3, "axisymmetric": 0.2, "plane-strain": 0.2}
+FLAT_SIZE = 0.35
+
+
+def explain(scene: Scene) -> Plan:
+    """What will be modelled for ``scene``, what is left out, and why; meshes and solves nothing.
+
+    Raises:
+        SceneError: the scene asks for something that no plan can give; all reasons at once.
+    """
+    reduction, first = choose_reduction(scene)
+    odd = odd_planes(scene, reduction)
+    opened, faces = _interface(scene)
+    sizes, mesh = _sizes(scene, reduction.name)
+    decisions = (first, _theory(scene), _loads(scene), *_field(scene), *faces, *mesh, _order(scene))
+    return Plan(reduction, sizes, opened, odd, decisions)
+
+
+def _theory(scene: Scene) -> Decision:
+    ratio = scene.shell.thickness / scene.shell.shape.size
+    error = 0.05 * ratio**2
+    reason = f"thickness over size {ratio:.3g}: theory error about {error:.1e} of the stretch; no bending stiffness"
+    return Decision("shell theory", "membrane", reason)
+
+
+def _loads(scene: Scene) -> Decision:
+    variant = scene.loads.variant
+    if variant != "embedding-aware":
+        return Decision("face pressures", variant, "pinned by the scene; the consistent form is embedding-aware")
+    varying = ", ".join(scene.loads.pressure_fields)
+    reason = f"{varying} vary: their gradient is felt" if varying else "uniform pressures"
+    if scene.shell.shape.edges:
+        reason += f"; the rim is {scene.loads.rim}"
+    return Decision("face pressures", variant, reason)
+
+
+def _field(scene: Scene) -> tuple[Decision, ...]:
+    if scene.ambient is None:
+        return (Decision("ambient", "none", "the scene has no field: nothing around the shell is meshed"),)
+    faces = scene.faces
+    voltages = {electrode.voltage for electrode in (faces.top, faces.bottom) if electrode is not None}
+    both = faces.top is not None and faces.bottom is not None
+    if both and len(voltages) == 1:
+        jump = Decision("potential", "continuous", "both faces are electrodes at one potential: no jump to solve for")
+    else:
+        jump = Decision("potential", "with a jump", "the faces may differ: the jump is an unknown on the shell")
+    moving = Decision("field", "moves with the shell", "joint Newton of shell and field on the moved ambient")
+    if scene.ambient.outer == "grounded":
+        far = Decision("far field", "grounded", "potential prescribed on the outer boundary, as the scene states")
+    else:
+        far = Decision("far field", "second-order Robin", "exact for net charge and dipole; higher multipoles decay")
+    return moving, jump, far
+
+
+def _interface(scene: Scene) -> tuple[bool, tuple[Decision, ...]]:
+    if scene.ambient is None:
+        return False, ()
+    ratio = scene.shell.thickness / scene.shell.shape.size
+    if scene.model.interface == "closed":
+        reason = f"pinned by the scene; first order in the thickness, about {0.2 * ratio:.1e} of the stretch"
+        return False, (Decision("interface", "closed", reason),)
+    reason = "faces at their true places: second order in the thickness"
+    return True, (Decision("interface", "opened", reason),)
+
+
+def _sizes(scene: Scene, reduction: str) -> tuple[MeshSizes, tuple[Decision, ...]]:
+    chosen, size = scene.discretisation, scene.shell.shape.size
+    flat = scene.ambient is None and scene.shell.shape.curvature_radius is None
+    shell = chosen.shell_size / size if chosen.shell_size else (FLAT_SIZE if flat else SHELL_SIZE[reduction])
+    origin = "stated by the scene" if chosen.shell_size else f"default of {reduction}"
+    decisions = [Decision("mesh on the shell", f"{shell:.3g} x size", origin)]
+    if scene.ambient is None:
+        return MeshSizes(shell, shell, 0.0, chosen.grading, chosen.order), tuple(decisions)
+    stated = scene.ambient.radius
+    radius = stated / size if stated else FAR_RADIUS
+    origin = "stated by the scene" if stated else f"default, {FAR_RADIUS:g} times the shell"
+    decisions.append(Decision("ambient radius", f"{radius:.3g} x size", origin))
+    far = chosen.ambient_size / size if chosen.ambient_size else radius / 2
+    origin = "stated by the scene" if chosen.ambient_size else "half the ambient's radius"
+    decisions.append(Decision("mesh far away", f"{far:.3g} x size", f"{origin}; grading {chosen.grading:g}"))
+    return MeshSizes(shell, far, radius, chosen.grading, chosen.order), tuple(decisions)
+
+
+def _order(scene: Scene) -> Decision:
+    order = scene.discretisation.order
+    return Decision("order", str(order), "polynomial order of shell, field and geometry alike")

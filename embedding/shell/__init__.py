@@ -1,0 +1,1 @@
+"""The nonlinear shell: kinematics, hyperelastic laws, mechanical loads."""

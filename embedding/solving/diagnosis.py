@@ -1,0 +1,48 @@
+"""Why a path stopped: the true cause behind a step that would not converge."""
+
+from __future__ import annotations
+
+from embedding.coupling.linear import LinearSolverError
+from embedding.solving.path import Target
+from embedding.solving.problem import Problem
+from embedding.solving.result import Result
+from embedding.solving.state import State
+
+PROBE = 1e-4
+STEEP = 4.0
+COMPRESSION = -1e-3
+
+
+def response_rate(problem: Problem, here: Target, towards: Target) -> float:
+    """How fast the shell moves per unit of stage, at the converged state ``here``: it blows up at a limit point.
+
+    A linearised step towards a target ``PROBE`` of the way ahead; the state is left as it was.
+    """
+    system = problem.system
+    saved = system.save()
+    ahead = towards.between(here, PROBE)
+    try:
+        system.load(ahead.mechanical, ahead.field, ahead.volume, ahead.pressure)
+        if system.potential is not None:
+            system.potential.solve()
+        step, _ = system.newton_update()
+        return system.displacement_norm(step) / PROBE
+    except LinearSolverError:
+        return float("inf")
+    finally:
+        system.restore(saved)
+        system.load(here.mechanical, here.field, here.volume, here.pressure)
+
+
+def diagnose(problem: Problem, reason: Result, here: Target, towards: Target, usual_rate: float) -> Result:
+    """Refine the ``reason`` Newton gave, at the last good state; ``usual_rate`` is the rate earlier in the stage."""
+    if reason in (Result.INVERTED_AMBIENT, Result.INTERRUPTED):
+        return reason
+    state = State(problem)
+    shear = problem.scales.stress
+    compressed = state.scalars()["min_principal_stress"] < COMPRESSION * shear
+    if towards.volume is None and usual_rate > 0:
+        if response_rate(problem, here, towards) > STEEP * usual_rate:
+            moving_field = towards.field != here.field
+            return Result.PULL_IN if moving_field else Result.LIMIT_POINT
+    return Result.COMPRESSIVE_MEMBRANE if compressed else reason

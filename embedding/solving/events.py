@@ -1,0 +1,70 @@
+"""What the solver tells while it works: iterations, accepted steps, cuts; and who may listen.
+
+The solver stays free of files and screens: progress bars, archives and early stops are listeners.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from embedding.solving.problem import Problem
+    from embedding.solving.solution import Solution
+    from embedding.solving.state import State
+
+
+@dataclass(frozen=True)
+class Iteration:
+    """One Newton step: update and residual norms (scaled, dimensionless) and the mean face pressures in Pa."""
+
+    number: int
+    update: float
+    residual: float
+    pressure_top: float
+    pressure_bottom: float
+
+
+@dataclass(frozen=True)
+class StepRecord:
+    """One accepted load step: where on the path it is, how Newton got there, and its scalars in SI units."""
+
+    number: int
+    stage: str
+    factor_mechanical: float
+    factor_field: float
+    iterations: tuple[Iteration, ...]
+    scalars: dict[str, float]
+    wall_seconds: float
+
+
+@dataclass(frozen=True)
+class Field:
+    """A named field on one block of the mesh, live at the time of the call.
+
+    ``values`` is an NGSolve coefficient function in SI units; vectors have the components of the mesh's own dimension.
+    """
+
+    block: str
+    name: str
+    unit: str
+    values: Any
+
+
+class Listener:
+    """Base class of everything that watches a solve; every method may be overridden, none needs to be."""
+
+    def started(self, problem: Problem) -> None:
+        """The problem is meshed and planned; no step has been taken yet."""
+
+    def iterated(self, step_number: int, target: dict[str, float], iteration: Iteration) -> None:
+        """A Newton step towards the load ``target`` is done."""
+
+    def accepted(self, state: State, record: StepRecord) -> None:
+        """A load step has converged."""
+
+    def cut(self, step_number: int, fraction: float, reason: str) -> None:
+        """A load step failed and is retried at ``fraction`` of its planned length."""
+
+    def finished(self, solution: Solution) -> None:
+        """The path has ended, well or not; ``solution.result`` says which."""

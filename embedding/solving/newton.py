@@ -1,0 +1,104 @@
+"""Newton's method for one load step: the ambient follows, the field is re-solved, then one joint update.
+
+The interior motion of the ambient is frozen in the joint update; without the potential's own solve before it Newton
+diverges, because the old potential was carried along with the moved mesh. Updates that would turn elements over are
+halved; whatever fails gets a typed reason.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from embedding.coupling.linear import LinearSolverError
+from embedding.coupling.system import System
+from embedding.solving.events import Iteration
+from embedding.solving.result import Result
+
+LARGEST_UPDATE = 0.5
+MOST_HALVINGS = 6
+
+
+@dataclass
+class Clock:
+    """Seconds spent in each part of the Newton steps."""
+
+    parts: dict[str, float] = field(default_factory=dict)
+
+    def add(self, part: str, start: float) -> float:
+        """Charge the time since ``start`` to ``part``; returns the time now."""
+        now = time.perf_counter()
+        self.parts[part] = self.parts.get(part, 0.0) + now - start
+        return now
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a Newton solve ended; ``reason`` is None when it converged."""
+
+    iterations: tuple[Iteration, ...]
+    reason: Result | None
+
+
+class Newton:
+    """Newton's method on a coupled ``system`` to a scaled ``tolerance`` of update and decrement."""
+
+    def __init__(self, system: System, tolerance: float, max_iterations: int, pressures: Any) -> None:
+        self.system, self.tolerance, self.max_iterations = system, tolerance, max_iterations
+        self._pressures = pressures
+        self.clock = Clock()
+
+    def solve(self, watch: Callable[[Iteration], None]) -> Outcome:
+        """Iterate from the present state; the state is only good afterwards if the outcome has no reason."""
+        iterations: list[Iteration] = []
+        if not self._follow():
+            return Outcome((), Result.INVERTED_AMBIENT)
+        for number in range(1, self.max_iterations + 1):
+            try:
+                update, residual = self._update()
+            except LinearSolverError:
+                return Outcome(tuple(iterations), Result.LINEAR_SOLVER_FAILED)
+            if not math.isfinite(update + residual):
+                return Outcome(tuple(iterations), Result.STEP_BELOW_MINIMUM)
+            if update == math.inf:
+                return Outcome(tuple(iterations), Result.INVERTED_AMBIENT)
+            iterations.append(Iteration(number, update, residual, *self._pressures()))
+            watch(iterations[-1])
+            if max(update, residual) < self.tolerance:
+                return Outcome(tuple(iterations), None)
+        return Outcome(tuple(iterations), Result.STEP_BELOW_MINIMUM)
+
+    def _update(self) -> tuple[float, float]:
+        start = time.perf_counter()
+        if self.system.potential is not None:
+            self.system.potential.solve()
+            start = self.clock.add("potential", start)
+        step, residual = self.system.newton_update()
+        size = self.system.displacement_norm(step)
+        if size > LARGEST_UPDATE:
+            step.data = (LARGEST_UPDATE / size) * step
+        self.clock.add("joint", start)
+        return (size if self._take(step) else math.inf), residual
+
+    def _take(self, step: Any) -> bool:
+        """Add the step, halved until the ambient can follow."""
+        vector = self.system.unknowns.state.vec
+        before = np.array(vector.FV().NumPy())
+        full = step.FV().NumPy()
+        for halving in range(MOST_HALVINGS):
+            vector.FV().NumPy()[:] = before + 0.5**halving * full
+            if self._follow():
+                return True
+        vector.FV().NumPy()[:] = before
+        return False
+
+    def _follow(self) -> bool:
+        start = time.perf_counter()
+        moved = self.system.follow()
+        self.clock.add("ambient motion", start)
+        return moved

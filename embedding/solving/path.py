@@ -1,0 +1,81 @@
+"""The loading path of a scene as a sequence of targets, and the stepping that reaches them with cutbacks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from embedding.scene import Stage
+
+
+@dataclass(frozen=True)
+class Target:
+    """Load factors and, under volume control, the volume ratio; under pressure control ``volume`` is None."""
+
+    mechanical: float
+    field: float
+    volume: float | None
+    pressure: float | None = None
+
+    def between(self, start: Target, fraction: float) -> Target:
+        """The target at ``fraction`` of the way from ``start`` to here."""
+
+        def mix(a: float | None, b: float | None) -> float | None:
+            return None if b is None else (b if a is None else a + fraction * (b - a))
+
+        return Target(
+            start.mechanical + fraction * (self.mechanical - start.mechanical),
+            start.field + fraction * (self.field - start.field),
+            mix(start.volume, self.volume),
+            mix(start.pressure, self.pressure),
+        )
+
+    def report(self) -> dict[str, float]:
+        """The target as named numbers, for progress and records."""
+        named = {"mechanical": self.mechanical, "field": self.field, "volume_ratio": self.volume}
+        return {name: value for name, value in named.items() if value is not None}
+
+
+def stage_target(stage: Stage, full_difference: float | None) -> Target:
+    """Where a stage ends. ``full_difference`` is p_t - p_b at full mechanical load, if it is a number."""
+    pressure = None if full_difference is None else stage.mechanical * full_difference
+    return Target(stage.mechanical, stage.field, stage.volume_ratio, pressure)
+
+
+@dataclass
+class Stepper:
+    """Fractions of one stage, at most 1 / steps apart, halved on failure and doubled again on success."""
+
+    steps: int
+    min_step: float
+    fraction: float = 0.0
+    accepted: float = 0.0
+
+    def __post_init__(self) -> None:
+        self._planned = 1.0 / self.steps
+        self._length = self._planned
+
+    def proposals(self) -> Iterator[float]:
+        """Yield the next fraction to try until the stage is done; call ``accept`` or ``cut`` after each."""
+        while self.accepted < 1.0:
+            left = 1.0 - self.accepted
+            # A remainder of rounding is not a step of its own.
+            self.fraction = 1.0 if left < self._length * (1 + 1e-9) else self.accepted + self._length
+            yield self.fraction
+
+    def accept(self) -> None:
+        """The last proposal was solved."""
+        self.accepted = self.fraction
+        self._length = min(self._planned, 2 * self._length)
+
+    def cut(self) -> bool:
+        """The last proposal failed; False when no smaller step is allowed."""
+        self._length = (self.fraction - self.accepted) / 2
+        return self._length >= self.min_step * self._planned
+
+    @property
+    def relative_length(self) -> float:
+        """Present step as a part of the planned one."""
+        return self._length / self._planned
+
+

@@ -1,0 +1,154 @@
+"""A scene made ready to solve: planned, scaled, meshed, with its coupled system of equations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import ngsolve
+import numpy as np
+import numpy.typing as npt
+
+from embedding.ambient.potential import Electrodes
+from embedding.coupling.physics import FieldPhysics, Physics
+from embedding.coupling.system import System
+from embedding.errors import Problem as SceneProblem
+from embedding.errors import SceneError
+from embedding.geometry.domain import Domain, MeshSizes, build
+from embedding.geometry.reduction import Reduction
+from embedding.plan.decisions import Plan
+from embedding.scene import InfiniteCylinder, PressureField, Scales, Scene
+from embedding.shell.laws import Law
+from embedding.shell.loads import MechanicalLoads
+
+FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
+    "sin": ngsolve.sin,
+    "cos": ngsolve.cos,
+    "exp": ngsolve.exp,
+    "sqrt": ngsolve.sqrt,
+    "tanh": lambda a: 1 - 2 / (ngsolve.exp(2 * a) + 1),
+}
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Block:
+    """A part of the mesh that results are shown on: ``codim`` 1 is the shell, 0 a side of the ambient."""
+
+    name: str
+    region: Any
+    codim: int
+
+
+class Problem:
+    """Everything about one solve that does not change while it runs.
+
+    Raises:
+        SceneError: the scene states something that this version cannot model.
+    """
+
+    def __init__(self, scene: Scene, plan: Plan, sizes: MeshSizes | None = None) -> None:
+        refuse_unmodelled(scene)
+        self.scene, self.plan, self.scales = scene, plan, Scales.of(scene)
+        self.reduction: Reduction = plan.reduction
+        self.domain: Domain = build(scene.shell.shape, plan.reduction, sizes or plan.sizes)
+        self.system = System(self.domain, physics_of(scene, plan, self.scales))
+
+    @property
+    def mesh(self) -> Any:
+        """The NGSolve mesh; its coordinates are dimensionless."""
+        return self.domain.mesh
+
+    @cached_property
+    def blocks(self) -> dict[str, Block]:
+        """The parts of the mesh that carry fields."""
+        blocks = {"shell": Block("shell", self.domain.shell, 1)}
+        for side in ("outside", "inside") if self.domain.has_ambient else ():
+            blocks[side] = Block(side, self.mesh.Materials(self.domain.materials(side)), 0)
+        return blocks
+
+    def embed(self, points: Array) -> Array:
+        """Mesh points (n, d) as positions (n, 3) in m."""
+        return self.scales.length * self.reduction.embed(np.asarray(points))
+
+    def embed_vector(self, values: Array) -> Array:
+        """Vectors with mesh components (n, d) as vectors (n, 3); units are kept."""
+        return self.reduction.embed(np.asarray(values))
+
+
+def refuse_unmodelled(scene: Scene) -> None:
+    """Refuse combinations that are valid statements but not modelled by this version."""
+    shape = scene.shell.shape
+    open_tube = isinstance(shape, InfiniteCylinder) and shape.axial == "free"
+    problems = []
+    if open_tube and scene.ambient is not None:
+        problems.append(SceneProblem("shell.shape.axial", '"free" is not allowed with an ambient: use "held"'))
+    if open_tube and any(stage.volume_ratio is not None for stage in scene.path):
+        problems.append(SceneProblem("path", 'volume_ratio is not allowed with axial = "free": prescribe pressures'))
+    if problems:
+        raise SceneError(problems)
+
+
+def physics_of(scene: Scene, plan: Plan, scales: Scales) -> Physics:
+    """The dimensionless statement of ``scene``."""
+    shape = scene.shell.shape
+    cylinder = shape if isinstance(shape, InfiniteCylinder) else None
+    supports = tuple(
+        (support.where, component)
+        for support in scene.supports
+        for axis in support.fix
+        for component in plan.reduction.components(axis)
+    )
+    return Physics(
+        law=Law.of(scene.shell.material, scales.stress),
+        thickness=scene.shell.thickness / scales.length,
+        loads=_loads(scene, plan.reduction, scales),
+        supports=supports,
+        axial_free=cylinder is not None and cylinder.axial == "free",
+        axial_stretch=cylinder.axial_stretch if cylinder is not None else 1.0,
+        volume_controlled=any(stage.volume_ratio is not None for stage in scene.path),
+        opened=plan.opened,
+        field=_field(scene, plan, scales),
+    )
+
+
+def _loads(scene: Scene, reduction: Reduction, scales: Scales) -> MechanicalLoads:
+    loads = scene.loads
+
+    def line(traction: tuple[float, float, float]) -> tuple[float, ...]:
+        return tuple(t / scales.line_force for t in reduction.project(traction))
+
+    return MechanicalLoads(
+        pressure_top=_pressure(loads.pressure_top, reduction, scales),
+        pressure_bottom=_pressure(loads.pressure_bottom, reduction, scales),
+        edge_tractions=tuple((edge.edge, line(edge.traction)) for edge in loads.edge_tractions),
+        body_force=tuple(b / scales.force_density for b in reduction.project(loads.body_force)),
+        rim_is_free=loads.rim == "traction-free",
+        variant=loads.variant,
+    )
+
+
+def _pressure(pressure: float | PressureField, reduction: Reduction, scales: Scales) -> Any:
+    if not isinstance(pressure, PressureField):
+        return float(pressure) / scales.stress
+    x, y, z = (scales.length * c for c in (ngsolve.x, ngsolve.y, ngsolve.z))
+    zero = ngsolve.CF(0.0)
+    place = {"3d": (x, y, z), "axisymmetric": (x, zero, y), "plane-strain": (x, y, zero)}[reduction.name]
+    return ngsolve.CF(pressure(*place, FUNCTIONS) / scales.stress)
+
+
+def _field(scene: Scene, plan: Plan, scales: Scales) -> FieldPhysics | None:
+    ambient = scene.ambient
+    if ambient is None:
+        return None
+    top, bottom = scene.faces.top, scene.faces.bottom
+    electrodes = Electrodes(
+        top.voltage / scales.potential if top is not None else None,
+        bottom.voltage / scales.potential if bottom is not None else None,
+    )
+    electric = ambient.field == "electric"
+    contrast = scene.shell.relative_permittivity if electric else scene.shell.relative_permeability
+    applied = tuple(component / scales.field for component in plan.reduction.project(ambient.applied_field))
+    return FieldPhysics(electrodes, contrast, applied, ambient.outer == "grounded", plan.odd_planes)

@@ -1,0 +1,46 @@
+"""How a solve ended: an enum whose text is advice."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Result(Enum):
+    """The outcome of a solve; ``advice`` says what to do next."""
+
+    CONVERGED = "the whole path was solved"
+    LIMIT_POINT = (
+        "a limit point under the prescribed pressure: beyond it no equilibrium is near. "
+        "Control the enclosed volume instead (volume_ratio in a stage)"
+    )
+    PULL_IN = (
+        "a limit point under the prescribed field: beyond it no equilibrium is near. "
+        "Control the enclosed volume and keep the field, or stop at a lower field"
+    )
+    COMPRESSIVE_MEMBRANE = (
+        "the membrane is in compression, where it has no stiffness of its own and wrinkles. "
+        "Inflate or stretch it first; a model with bending is not part of this version"
+    )
+    INVERTED_AMBIENT = (
+        "elements of the ambient would turn over as the shell moves. "
+        "Make the ambient larger, its mesh on the shell finer, or the steps smaller"
+    )
+    LINEAR_SOLVER_FAILED = (
+        "the linear system is singular: a motion is held by nothing. "
+        'Add supports (a flat membrane without tension needs {where = "surface", fix = ["z"]}), or tension first'
+    )
+    STEP_BELOW_MINIMUM = (
+        "Newton's method did not converge with the smallest step allowed. "
+        "Make the mesh on the shell finer, add steps, or start from an inflated state"
+    )
+    INTERRUPTED = "interrupted; every accepted step is kept"
+
+    @property
+    def advice(self) -> str:
+        """What happened and what to try, in words."""
+        return str(self.value)
+
+    @property
+    def ok(self) -> bool:
+        """Did the solve reach the end of its path?"""
+        return self is Result.CONVERGED

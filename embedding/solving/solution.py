@@ -1,0 +1,68 @@
+"""What a solve returns: the accepted steps with their scalars, how it ended, its error and its cost."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from embedding.plan.decisions import Plan
+from embedding.scene import Scales, Scene
+from embedding.solving.events import StepRecord
+from embedding.solving.result import Result
+
+
+@dataclass(frozen=True)
+class ErrorEstimate:
+    """Relative error of ``quantity`` at the last step: the sum of ``parts``, each with its own source.
+
+    ``method`` says how the parts were obtained; what was not estimated is not in ``parts``.
+    """
+
+    value: float
+    quantity: str
+    method: str
+    parts: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What the solve cost: seconds, peak memory of the process in bytes, unknowns by name, seconds by part."""
+
+    wall_seconds: float
+    cpu_seconds: float
+    peak_memory_bytes: int
+    unknowns: dict[str, int]
+    parts: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Solution:
+    """The outcome of a solve, complete or not; ``solution["stretch"]`` is a scalar's history in SI units."""
+
+    scene: Scene
+    plan: Plan
+    scales: Scales
+    result: Result
+    message: str
+    steps: tuple[StepRecord, ...]
+    error: ErrorEstimate | None
+    cost: Cost
+    archive: Path | None = None
+
+    def __getitem__(self, name: str) -> npt.NDArray[np.float64]:
+        """History of the scalar ``name`` over the accepted steps.
+
+        Raises:
+            KeyError: no such scalar; the message lists those there are.
+        """
+        if self.steps and name not in self.steps[0].scalars:
+            raise KeyError(f"{name}: there are {', '.join(self.steps[0].scalars)}")
+        return np.array([step.scalars[name] for step in self.steps])
+
+    @property
+    def pressures(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Means of p_t and p_b over the shell, in Pa, over the accepted steps."""
+        return self["pressure_top"], self["pressure_bottom"]

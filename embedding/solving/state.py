@@ -1,0 +1,212 @@
+"""The present state of a problem in SI units: named fields for pictures, scalars for histories, vectors to restart."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from ngsolve import CF, Cof, Det, Grad, Id, IfPos, InnerProduct, sqrt, x
+
+from embedding.coupling.unknowns import SIDES
+from embedding.shell.kinematics import Kinematics
+from embedding.shell.loads import enclosed_volume
+from embedding.solving.events import Field
+from embedding.solving.problem import Problem
+
+FACE_OF = {side: face for face, side in SIDES.items()}
+
+
+class State:
+    """A view of ``problem``'s present state; its fields are live and change with the next Newton step."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self._system, self._scales = problem.system, problem.scales
+        self._domain, self._unknowns = problem.domain, problem.system.unknowns
+        self._values = {name: self._unknowns.field(name) for name in self._unknowns.names}
+        self._lengths = 2 if problem.reduction.name == "plane-strain" else 3
+
+    # -- kinematics that can be evaluated anywhere on the shell, the axis included
+
+    def _kinematics(self, displacement: str) -> Kinematics:
+        u = self._values[displacement]
+        plain = Kinematics(self._domain.reduction, self._domain.normal, u, self._axial)
+        if self._domain.reduction.name != "axisymmetric":
+            return plain
+        along = sqrt(InnerProduct(plain.deformation_gradient, plain.deformation_gradient))
+        hoop = IfPos(x - 1e-9, plain.hoop, along)
+        return Kinematics(self._domain.reduction, self._domain.normal, u, self._axial, hoop)
+
+    @property
+    def _axial(self) -> Any:
+        return self._values.get("axial", self._system.physics.axial_stretch)
+
+    @cached_property
+    def mid_surface(self) -> Kinematics:
+        """Kinematics of the deformed mid-surface."""
+        return self._kinematics("u")
+
+    @cached_property
+    def principal_stretches(self) -> tuple[Any, Any]:
+        """Larger and smaller in-plane stretch, from the invariants I_C and J_s."""
+        half = self.mid_surface.metric_trace / 2
+        inside = half * half - self.mid_surface.surface_stretch_squared
+        root = sqrt(IfPos(inside, inside, CF(0.0)))
+        return sqrt(half + root), sqrt(IfPos(half - root, half - root, CF(0.0)))
+
+    @property
+    def min_principal_stress(self) -> Any:
+        """Smaller in-plane Cauchy stress of the incompressible membrane in plane stress, dimensionless."""
+        law, (major, minor) = self._system.physics.law, self.principal_stretches
+        thickness = self.mid_surface.thickness_stretch
+        return 2 * (law.c1 + law.c2 * major**2) * (minor**2 - thickness**2)
+
+    # -- pressures on the faces: mechanical plus the field's
+
+    def face_pressures(self) -> tuple[Any, Any]:
+        """p_t and p_b, the total pressures on the true faces, dimensionless."""
+        top, bottom = self._mechanical_pressures()
+        for face, traction in self._system.tractions.items():
+            kinematics = self._kinematics(f"y_{face}" if self._unknowns.opened else "u")
+            pressure = traction.pressure(kinematics)
+            top, bottom = (top + pressure, bottom) if face == "t" else (top, bottom + pressure)
+        return CF(top), CF(bottom)
+
+    def _mechanical_pressures(self) -> tuple[Any, Any]:
+        loads, factor = self._system.physics.loads, self._system.factors.mechanical.Get()
+        top = factor * loads.pressure_top
+        if "pressure" in self._unknowns:
+            return top, top - float(self._values["pressure"].vec[0])
+        return top, factor * loads.pressure_bottom
+
+    def mean_pressures(self) -> tuple[float, float]:
+        """Means of p_t and p_b over the reference mid-surface, in Pa."""
+        area = self._domain.shell_integral(1.0)
+        means = [self._domain.shell_integral(CF(p)) / area for p in self._mechanical_pressures()]
+        for i, traction in enumerate(self._system.tractions.values()):
+            traction.refresh()
+            means[i] += traction.mean_pressure()
+        return self._scales.stress * means[0], self._scales.stress * means[1]
+
+    # -- what goes into archives and pictures
+
+    def fields(self) -> list[Field]:
+        """Every named field in SI units, shell first."""
+        scales, k = self._scales, self.mid_surface
+        top, bottom = self.face_pressures()
+        major, minor = self.principal_stretches
+        out = [
+            Field("shell", "u", "m", scales.length * CF(self._values["u"])),
+            Field("shell", "p_t", "Pa", scales.stress * top),
+            Field("shell", "p_b", "Pa", scales.stress * bottom),
+            Field("shell", "stretch", "1", sqrt(k.surface_stretch)),
+            Field("shell", "stretch_major", "1", major),
+            Field("shell", "stretch_minor", "1", minor),
+            Field("shell", "thickness_stretch", "1", k.thickness_stretch),
+            Field("shell", "normal", "1", k.normal),
+        ]
+        for face, traction in self._system.tractions.items():
+            kinematics = self._kinematics(f"y_{face}" if self._unknowns.opened else "u")
+            out.append(Field("shell", f"t_{face}", "Pa", scales.stress * traction.tangential(kinematics)))
+        for side in self._system.motions:
+            out += self._ambient_fields(side)
+        return out
+
+    def _ambient_fields(self, side: str) -> list[Field]:
+        scales = self._scales
+        motion = self._values[self._system.lagrangian.face(FACE_OF[side])]
+        w = self._system.motions[side].w
+        F = Id(self._domain.mesh.dim) + Grad(motion) + Grad(w)
+        gradient = self._system.lagrangian.side_potential_gradient(side, self._values)
+        strength = -1 * (Cof(F) * gradient) / Det(F)
+        potential = self._values["phi"]
+        if "jump" in self._values and self._unknowns.potential is not None:
+            lifted = self._unknowns.potential.electrodes.lifted == side
+            potential = potential + self._values["jump"] if lifted else potential
+        electric = self.problem.scene.ambient is None or self.problem.scene.ambient.field == "electric"
+        name, units = ("E", ("V", "V/m")) if electric else ("H", ("A", "A/m"))
+        return [
+            Field(side, "u", "m", scales.length * (motion + w)),
+            Field(side, "phi", units[0], scales.potential * potential),
+            Field(side, name, units[1], scales.field * strength),
+        ]
+
+    def vectors(self) -> dict[str, npt.NDArray[np.float64]]:
+        """Copies of all unknowns, by name: what a restart needs."""
+        named = {name: np.array(self._values[name].vec.FV().NumPy()) for name in self._unknowns.names}
+        for side, motion in self._system.motions.items():
+            named[f"motion_{side}"] = np.array(motion.vector.FV().NumPy())
+        return named
+
+    # -- scalars
+
+    def scalars(self) -> dict[str, float]:
+        """Named numbers of the present state in SI units (plane strain: per metre of the cylinder)."""
+        top, bottom = self.mean_pressures()
+        named = self._stretches() | {
+            "pressure_top": top,
+            "pressure_bottom": bottom,
+            "pressure_difference": self._pressure_difference(),
+        }
+        if self._domain.closed:
+            named["volume_ratio"] = self.volume / self._system.lagrangian.reference_volume
+        energy = self._scales.stress * self._scales.length**self._lengths
+        named["elastic_energy"] = energy * self._domain.shell_integral(
+            self._system.lagrangian.elastic_energy(self._values) / self._domain.reduction.measure
+        )
+        if "axial" in self._values:
+            named["axial_stretch"] = float(self._values["axial"].vec[0])
+        return named | self._field_scalars(energy)
+
+    def _stretches(self) -> dict[str, float]:
+        area = self._domain.shell_integral(1.0)
+        ratio = self._domain.shell_integral(self.mid_surface.surface_stretch) / area
+        plane = self._domain.reduction.name == "plane-strain"
+        axial = float(self._values["axial"].vec[0]) if "axial" in self._values else self._system.physics.axial_stretch
+        major, minor = (self._sample(value) for value in self.principal_stretches)
+        return {
+            "stretch": ratio / axial if plane else math.sqrt(ratio),
+            "stretch_max": float(major.max()),
+            "stretch_min": float(minor.min()),
+            "min_principal_stress": self._scales.stress * float(self._sample(self.min_principal_stress).min()),
+        }
+
+    def _sample(self, values: Any) -> Any:
+        from ngsolve import ET, IntegrationRule
+
+        rule = IntegrationRule(ET.TRIG if self._domain.mesh.dim == 3 else ET.SEGM, 2 * self._domain.sizes.order)
+        return np.asarray(values(self._domain.mesh.MapToAllElements(rule, self._domain.shell)))
+
+    def _pressure_difference(self) -> float:
+        area = self._domain.shell_integral(1.0)
+        top, bottom = self._mechanical_pressures()
+        return self._scales.stress * self._domain.shell_integral(CF(bottom - top)) / area
+
+    @property
+    def volume(self) -> float:
+        """Volume enclosed by the deformed mid-surface, dimensionless (plane strain: per length)."""
+        kinematics = self._system.lagrangian.kinematics(self._values)
+        return self._domain.shell_integral(enclosed_volume(self._domain, kinematics, self._values["u"]))
+
+    def _field_scalars(self, energy: float) -> dict[str, float]:
+        potential = self._system.potential
+        if potential is None:
+            return {}
+        scales, field = self._scales, self._system.factors.field.Get()
+        base = self._system.physics.field
+        voltage = base.electrodes.base if base is not None and base.electrodes.base is not None else 0.0
+        named = {
+            "voltage": scales.potential * field * voltage,
+            "charge": scales.flux_density * scales.length ** (self._lengths - 1) * potential.charge(),
+            "field_energy": energy * potential.energy(),
+            "min_jacobian": self._system.min_jacobian,
+        }
+        force = scales.stress * scales.length ** (self._lengths - 1)
+        totals = np.sum([traction.force() for traction in self._system.tractions.values()], axis=0)
+        for axis, total in zip(self._domain.reduction.axes, totals, strict=True):
+            if axis != "r" and axis not in self._domain.reduction.planes:
+                named[f"force_{axis}"] = force * float(total)
+        return named
