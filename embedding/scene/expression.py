@@ -110,10 +110,7 @@ def _unknown(name: str) -> str:
 def _number(value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError("constants must be real numbers")
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
+    number = float(value)  # the limit of the length keeps integers within the range of floats
     if not math.isfinite(number):
         raise ValueError("constants must be finite")
     return number

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Self
 
-from pydantic import BeforeValidator, ValidationError, ValidationInfo, model_validator
+from pydantic import BeforeValidator, ValidationInfo, model_validator
 
 from embedding.errors import Problem, SceneError
 from embedding.scene.ambient import Ambient, Faces
@@ -91,11 +91,7 @@ class Scene(Part):
 
     @classmethod
     def _further_problems(cls, data: Mapping[str, Any]) -> tuple[Problem, ...]:
-        try:
-            partial = cls.model_validate(dict(data), context=TOLERANT)
-        except ValidationError:
-            return ()
-        return cross_problems(partial)
+        return cross_problems(cls.model_validate(dict(data), context=TOLERANT))
 
     @model_validator(mode="after")
     def _fits_together(self, info: ValidationInfo) -> Self:
