@@ -1,9 +1,10 @@
 """Motion of the ambient mesh on one side of the shell: it follows the face, and no element turns over.
 
 The face carries its displacement y into the elements that touch it (the shell's own basis functions); the interior
-motion w, piecewise linear, takes up the rest by minimising a hyperelastic energy that is stiff where elements are
-small. Any admissible w gives the same physics up to the discretisation error, so one linearised step per Newton step
-is enough; what matters is that det F stays positive, and that is measured.
+motion w, piecewise linear, takes up the rest by lowering a hyperelastic energy that is stiff where elements are small.
+Any admissible w gives the same physics up to the discretisation error, so w takes one linearised step whenever the
+face has moved noticeably and rests otherwise: with w at rest Newton's method on shell and field is quadratic. What
+matters is that det F stays positive, and that is measured after every move.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 from ngsolve import (
     ET,
+    VOL,
     BilinearForm,
     Det,
     Grad,
@@ -22,6 +24,7 @@ from ngsolve import (
     IntegrationRule,
     Variation,
     VectorH1,
+    dx,
     log,
     specialcf,
 )
@@ -30,84 +33,104 @@ from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import TraceSpace, as_bits, plane_mask, scalar_mask
 
 GUARD = 0.02
-MOST_SUBSTEPS = 16
+MOST_SUBSTEPS = 64
+NOTICEABLE = 1e-3
 
 
 class SideMotion:
-    """The interior motion ``w`` of one ``side`` ("outside" or "inside") as its face moves by ``y``."""
+    """The motion y + w of one ``side`` ("outside" or "inside"): face displacement ``y``, interior motion ``w``."""
 
     def __init__(self, domain: Domain, side: str, face: TraceSpace) -> None:
-        self.side = side
         mesh, materials = domain.mesh, domain.materials(side)
         interior = VectorH1(mesh, order=1, definedon=mesh.Materials(materials))
-        self._space = face.space * interior
-        self._state = GridFunction(self._space)
-        self._saved = self._state.vec.CreateVector()
-        self.w = self._state.components[1]
-        y, w = self._space.TrialFunction()
-        F = Id(mesh.dim) + Grad(y) + Grad(w)
-        self._form = BilinearForm(self._space, symmetric=True)
-        self._form += Variation(_extension_energy(F) * domain.volume(materials)).Compile()
-        self._free = as_bits(np.concatenate([np.zeros(face.space.ndof, bool), self._interior_mask(domain, interior)]))
-        self._faces = slice(0, face.space.ndof)
-        element = ET.TET if mesh.dim == 3 else ET.TRIG
-        rule = IntegrationRule(element, 2 * domain.sizes.order)
-        self._points = mesh.MapToAllElements(rule, mesh.Materials(materials))
-        gf_y, gf_w = self._state.components
-        self._jacobian = Det(Id(mesh.dim) + Grad(gf_y) + Grad(gf_w)).Compile()
-
-    @staticmethod
-    def _interior_mask(domain: Domain, interior: Any) -> Any:
-        scalar = interior.components[0]
-        held = scalar_mask(scalar, domain.shell) | scalar_mask(scalar, domain.mesh.Boundaries("outer"))
-        on_side = np.asarray([bool(f) for f in interior.FreeDofs()])[: scalar.ndof]
-        free = np.tile(on_side & ~held, (domain.mesh.dim, 1))
-        for axis in symmetry_components(domain):
-            free[axis] &= ~plane_mask(scalar, axis)
-        return free.ravel()
+        self.y, self.w = GridFunction(face.space), GridFunction(interior)
+        self._settled = np.zeros(face.space.ndof)
+        self._noticeable = NOTICEABLE * domain.sizes.shell
+        trial = interior.TrialFunction()
+        rule = {element: IntegrationRule(element, 2) for element in (ET.TET, ET.TRIG)}
+        self._form = BilinearForm(interior, symmetric=True)
+        strain = _extension_energy(Id(mesh.dim) + Grad(self.y) + Grad(trial))
+        self._form += Variation(strain * dx(materials, intrules=rule)).Compile()
+        self._free = as_bits(_interior_mask(domain, interior))
+        self._jacobian = Det(Id(mesh.dim) + Grad(self.y) + Grad(self.w)).Compile()
+        self._points = [
+            mesh.MapToAllElements(_sampling(mesh.dim, order), mesh.Materials(pattern))
+            for pattern, order in _parts(domain, side)
+        ]
 
     @property
     def min_jacobian(self) -> float:
         """Smallest det F over the sample points of this side (1 for the undeformed mesh)."""
-        return float(np.min(self._jacobian(self._points)))
+        return min(float(np.min(self._jacobian(points))) for points in self._points)
 
-    def save(self) -> None:
-        """Remember the present motion, to come back to it by :meth:`restore`."""
-        self._saved.data = self._state.vec
-
-    def restore(self) -> None:
-        """Go back to the motion of the last :meth:`save`."""
-        self._state.vec.data = self._saved
-
-    @property
-    def vector(self) -> Any:
-        """All unknowns of the motion (face and interior) as one NGSolve vector."""
-        return self._state.vec
+    def vectors(self) -> list[Any]:
+        """The vectors that make up the state of the motion: face, interior, and where the face was last settled."""
+        return [self.y.vec.FV().NumPy(), self.w.vec.FV().NumPy(), self._settled]
 
     def follow(self, face: Any) -> bool:
         """Move the face to the displacement vector ``face``; False (and nothing moved) if elements would turn over."""
-        start = np.array(self._state.vec.FV().NumPy())
-        change = np.array(face.FV().NumPy()) - start[self._faces]
+        saved = [vector.copy() for vector in self.vectors()]
+        target = np.array(face.FV().NumPy())
+        if np.abs(target - self._settled).max(initial=0.0) <= self._noticeable:
+            if self._place(target):
+                return True
         substeps = 1
         while substeps <= MOST_SUBSTEPS:
-            if all(self._step(change / substeps) for _ in range(substeps)):
+            self._restore(saved)
+            start = saved[0]
+            fractions = (i / substeps for i in range(1, substeps + 1))
+            if all(self._settle(start + fraction * (target - start)) for fraction in fractions):
+                self._settled[:] = target
                 return True
-            self._state.vec.FV().NumPy()[:] = start
             substeps *= 4
+        self._restore(saved)
         return False
 
-    def _step(self, face_change: Any) -> bool:
-        vector = self._state.vec
-        residual, update = vector.CreateVector(), vector.CreateVector()
+    def _restore(self, saved: list[Any]) -> None:
+        for vector, values in zip(self.vectors(), saved, strict=True):
+            vector[:] = values
+
+    def _place(self, face: Any) -> bool:
+        """Move the face alone."""
+        self.y.vec.FV().NumPy()[:] = face
+        return self.min_jacobian > GUARD
+
+    def _settle(self, face: Any) -> bool:
+        """Move the face, then let the interior take one Newton step on its energy."""
+        if not self._place(face):
+            return False
+        vector = self.w.vec
+        residual = vector.CreateVector()
         self._form.Apply(vector, residual)
         self._form.AssembleLinearization(vector)
-        update[:] = 0.0
-        update.FV().NumPy()[self._faces] = face_change
-        residual.data += self._form.mat * update
-        update.data -= self._form.mat.Inverse(self._free, inverse="sparsecholesky") * residual
-        vector.data += update
-        values = vector.FV().NumPy()
-        return bool(np.all(np.isfinite(values))) and self.min_jacobian > GUARD
+        vector.data -= self._form.mat.Inverse(self._free, inverse="sparsecholesky") * residual
+        return bool(np.all(np.isfinite(vector.FV().NumPy()))) and self.min_jacobian > GUARD
+
+
+def _parts(domain: Domain, side: str) -> list[tuple[str, int]]:
+    """Materials of a side with the order of the sampling rule: fine where the face's motion reaches, else centroids."""
+    near = domain.near(side)
+    if near == domain.materials(side):
+        return [(near, 2 * domain.sizes.order)]
+    return [(near, 2 * domain.sizes.order)] + ([(side, 1)] if side in _used_materials(domain) else [])
+
+
+def _used_materials(domain: Domain) -> set[str]:
+    return {element.mat for element in domain.mesh.Elements(VOL)}
+
+
+def _sampling(dimension: int, order: int) -> IntegrationRule:
+    return IntegrationRule(ET.TET if dimension == 3 else ET.TRIG, order)
+
+
+def _interior_mask(domain: Domain, interior: Any) -> Any:
+    scalar = interior.components[0]
+    held = scalar_mask(scalar, domain.shell) | scalar_mask(scalar, domain.mesh.Boundaries("outer"))
+    on_side = np.fromiter((bool(f) for f in scalar.FreeDofs()), bool, scalar.ndof)
+    free = np.tile(on_side & ~held, (domain.mesh.dim, 1))
+    for axis in symmetry_components(domain):
+        free[axis] &= ~plane_mask(scalar, axis)
+    return free.ravel()
 
 
 def symmetry_components(domain: Domain) -> tuple[int, ...]:

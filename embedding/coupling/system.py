@@ -116,7 +116,7 @@ class System:
 
     def save(self) -> Any:
         """A copy of the whole state, for :meth:`restore`."""
-        motions = {side: np.array(motion.vector.FV().NumPy()) for side, motion in self.motions.items()}
+        motions = {side: [v.copy() for v in motion.vectors()] for side, motion in self.motions.items()}
         return np.array(self.unknowns.state.vec.FV().NumPy()), motions
 
     def restore(self, saved: Any) -> None:
@@ -124,7 +124,8 @@ class System:
         state, motions = saved
         self.unknowns.state.vec.FV().NumPy()[:] = state
         for side, motion in self.motions.items():
-            motion.vector.FV().NumPy()[:] = motions[side]
+            for vector, values in zip(motion.vectors(), motions[side], strict=True):
+                vector[:] = values
 
 
 class PotentialSolve:

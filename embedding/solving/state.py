@@ -138,7 +138,7 @@ class State:
         """Copies of all unknowns, by name: what a restart needs."""
         named = {name: np.array(self._values[name].vec.FV().NumPy()) for name in self._unknowns.names}
         for side, motion in self._system.motions.items():
-            named[f"motion_{side}"] = np.array(motion.vector.FV().NumPy())
+            named[f"motion_{side}"] = np.concatenate(motion.vectors())
         return named
 
     # -- scalars
