@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Sequence
 
@@ -12,8 +11,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     0 fine, 2 bad input, 3 the solve failed, 130 interrupted; 1 is left for defects of the program itself.
     """
-    # OpenBLAS reads this once, when ngsolve is loaded; its threads would fight over many small dense blocks.
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from embedding.cli.door import enter
 
     return enter(list(sys.argv[1:] if arguments is None else arguments))

@@ -2,28 +2,19 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import App, Parameter
 
+from embedding import __version__
 from embedding.cli.files import check_output, check_pictures, default_archive
 from embedding.cli.output import print_json, print_solution, solution_summary
-
-
-def version() -> str:
-    """Version of the installed package."""
-    try:
-        return importlib.metadata.version("embedding")
-    except importlib.metadata.PackageNotFoundError:
-        return "unknown: run from a checkout, not installed"
-
 
 app = App(
     name="embedding",
     help="Nonlinear hyperelastic shells inside a free space with electric or magnetic fields.",
-    version=version,
+    version=__version__,
     suppress_keyboard_interrupt=False,  # the door answers for interrupts
     default_parameter=Parameter(show_default=False),
 )
@@ -61,13 +52,9 @@ def run(
         check_pictures("--picture")
         check_output("--picture", picture, ".png")
 
-    from contextlib import nullcontext
+    from embedding.api import solve
 
-    from embedding.cli.progress import Progress
-    from embedding.solve import solve
-
-    with Progress() if progress else nullcontext() as watching:
-        solution = solve(stated, archive=archive, listeners=() if watching is None else (watching,))
+    solution = solve(stated, archive=archive, progress=progress)
     if picture is not None:
         pass
     if as_json:
@@ -85,9 +72,9 @@ def explain(scene: SceneFile, /, *, overrides: Overrides = (), as_json: AsJson =
 
     stated = load_scene(scene, overrides)
 
-    from embedding.plan import explain as plan_for
+    from embedding import plan as planning
 
-    plan = plan_for(stated)
+    plan = planning.explain(stated)
     if as_json:
         decisions = [{"topic": d.topic, "choice": d.choice, "reason": d.reason} for d in plan.decisions]
         print_json({"scene": stated.name, "decisions": decisions})

@@ -59,8 +59,8 @@ def _solve_failed(error: SolveError, as_json: bool) -> int:
     archive = getattr(solution, "archive", None)
     steps = len(getattr(solution, "steps", ()))
     message = str(error)
-    if archive is not None and str(archive) not in message:
-        message += f"\nThe {steps} accepted steps before it are in {archive}."
+    if archive is not None:
+        message += f"\nThe record of the run is in {archive}."
     report = {"kind": "solve", "message": message, "result": result, "steps": steps}
     if archive is not None:
         report["archive"] = str(archive)

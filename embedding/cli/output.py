@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console
 
 if TYPE_CHECKING:
-    from embedding.solve.solution import Cost, ErrorEstimate, Solution
-
     from embedding.archive.reader import ArchivedCost, ArchivedError
+    from embedding.solving.solution import Cost, ErrorEstimate, Solution
 
 
 def print_json(value: Mapping[str, Any]) -> None:
@@ -71,7 +70,7 @@ def solution_summary(solution: Solution) -> dict[str, Any]:
         "message": solution.message,
         "steps": len(solution.steps),
         "scalars": last.scalars if last else {},
-        "estimated_error": asdict(solution.error),
+        "estimated_error": None if solution.error is None else asdict(solution.error),
         "cost": asdict(solution.cost),
         "archive": solution.archive,
     }
@@ -85,7 +84,8 @@ def print_solution(solution: Solution) -> None:
     per_length = solution.scene.shell.shape.kind == "infinite-cylinder"
     scalars = solution.steps[-1].scalars if solution.steps else {}
     rows = [(name, number(value, scalar_unit(name, per_length))) for name, value in scalars.items()]
-    rows.append(("estimated error", error_line(solution.error)))
+    if solution.error is not None:
+        rows.append(("estimated error", error_line(solution.error)))
     rows.append(("cost", cost_line(solution.cost)))
     if solution.archive is not None:
         rows.append(("archive", str(solution.archive)))

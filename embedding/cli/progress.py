@@ -14,15 +14,15 @@ from rich.table import Table
 from rich.text import Text
 
 from embedding.cli.output import words
-from embedding.solve.events import Iteration, Listener, StepRecord
+from embedding.solving.events import Iteration, Listener, StepRecord
 
 if TYPE_CHECKING:
-    from embedding.solve.problem import Problem
-    from embedding.solve.solution import Solution
-    from embedding.solve.state import State
+    from embedding.solving.problem import Problem
+    from embedding.solving.solution import Solution
+    from embedding.solving.state import State
 
 
-class Progress(Listener):
+class ProgressDisplay(Listener):
     """Shows stage, load, step, the Newton history of the present step and the time passed.
 
     Use as a context manager around the solve, so that an exception leaves the terminal as it was.

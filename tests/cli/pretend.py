@@ -8,7 +8,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from embedding.solve.events import Iteration, StepRecord
+from embedding.solving.events import Iteration, StepRecord
 
 
 @dataclass(frozen=True)
@@ -18,6 +18,7 @@ class Estimate:
     value: float
     quantity: str
     method: str
+    parts: dict[str, float]
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,9 @@ def solution(scene: Any, archive: Path | None, steps: Sequence[StepRecord], resu
         result=SimpleNamespace(name=result, advice="take smaller steps"),
         message="the whole path is solved",
         steps=tuple(steps),
-        error=Estimate(value=2e-4, quantity="stretch", method="one order lower"),
+        error=Estimate(
+            value=2e-4, quantity="stretch", method="one order lower", parts={"discretisation": 2e-4}
+        ),
         cost=Cost(
             wall_seconds=75.0,
             cpu_seconds=70.0,

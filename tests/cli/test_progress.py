@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from embedding.cli.progress import Progress
+from embedding.cli.progress import ProgressDisplay
 from embedding.scene import load_scene
 from tests.cli.pretend import iteration, play, problem, record, solution
 
@@ -25,7 +25,7 @@ class Clock:
 
 def test_plain_lines_elsewhere(scene_file: Path) -> None:
     stream, clock, scene = io.StringIO(), Clock(), load_scene(scene_file)
-    with Progress(Console(file=stream, width=40), clock) as progress:
+    with ProgressDisplay(Console(file=stream, width=40), clock) as progress:
         clock.now = 61.0
         done = play(scene, [progress])
         progress.finished(solution(scene, None, done))
@@ -40,14 +40,14 @@ def test_plain_lines_elsewhere(scene_file: Path) -> None:
 
 def test_a_cut_is_told(scene_file: Path) -> None:
     stream = io.StringIO()
-    progress = Progress(Console(file=stream))
+    progress = ProgressDisplay(Console(file=stream))
     play(load_scene(scene_file), [progress], fail_at=1)
     assert "step 1 is retried at 0.5 of its length: Newton did not converge" in stream.getvalue()
 
 
 def test_panel_shows_the_present_step(scene_file: Path) -> None:
     scene, clock = load_scene(scene_file), Clock()
-    progress = Progress(Console(file=io.StringIO(), force_terminal=True), clock)
+    progress = ProgressDisplay(Console(file=io.StringIO(), force_terminal=True), clock)
     clock.now = 125.0
     progress.live = None
     progress.started(problem(scene))
@@ -75,7 +75,7 @@ def test_panel_shows_the_present_step(scene_file: Path) -> None:
 def test_a_terminal_is_left_as_it_was(scene_file: Path) -> None:
     stream, scene = io.StringIO(), load_scene(scene_file)
     console = Console(file=stream, force_terminal=True, width=100)
-    with pytest.raises(KeyboardInterrupt), Progress(console) as progress:
+    with pytest.raises(KeyboardInterrupt), ProgressDisplay(console) as progress:
         play(scene, [progress])
         raise KeyboardInterrupt
     assert progress.live is None

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-import embedding.solve
+from embedding.cli.progress import ProgressDisplay
 from embedding.errors import SolveError
 from tests.cli.conftest import Outcome
 from tests.cli.pretend import play, solution
@@ -26,22 +26,22 @@ class Solver:
         self.result = "NOT_CONVERGED"
         self.error: BaseException | None = None
 
-    def __call__(self, scene: Any, *, archive: Path | None = None, listeners: Any = (), **rest: Any) -> Any:
-        self.calls.append({"scene": scene, "archive": archive, "listeners": listeners, **rest})
+    def __call__(self, scene: Any, *, archive: Path | None = None, progress: bool = False) -> Any:
+        self.calls.append({"scene": scene, "archive": archive, "progress": progress})
         if self.error is not None:
             raise self.error
-        done = play(scene, listeners, self.fail_at)
+        with ProgressDisplay() as display:
+            done = play(scene, [display] if progress else [], self.fail_at)
         if self.fail_at is not None:
-            raise SolveError(
-                "Newton did not converge: take smaller steps", solution(scene, archive, done, self.result)
-            )
+            outcome = solution(scene, archive, done, self.result)
+            raise SolveError("Newton did not converge: take smaller steps", outcome)
         return solution(scene, archive, done)
 
 
 @pytest.fixture
 def solver(monkeypatch: pytest.MonkeyPatch) -> Solver:
     fake = Solver()
-    monkeypatch.setattr(embedding.solve, "solve", fake, raising=False)
+    monkeypatch.setattr("embedding.api.solve", fake)
     return fake
 
 
@@ -86,7 +86,7 @@ def test_json_is_the_only_output_on_stdout(scene_file: Path, call: Call, solver:
     report = json.loads(outcome.out)
     assert outcome.code == 0
     assert outcome.err == ""
-    assert solver.calls[0]["listeners"] == ()
+    assert solver.calls[0]["progress"] is False
     assert report["scene"] == "small balloon"
     assert report["result"] == "CONVERGED"
     assert report["steps"] == 2
@@ -104,7 +104,7 @@ def test_a_failed_solve_is_three(scene_file: Path, call: Call, solver: Solver) -
     assert outcome.out == ""
     assert outcome.err == (
         "error: Newton did not converge: take smaller steps\n"
-        "The 1 accepted steps before it are in small_balloon.vtkhdf.\n"
+        "The record of the run is in small_balloon.vtkhdf.\n"
     )
 
 
