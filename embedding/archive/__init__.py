@@ -1,0 +1,8 @@
+"""One HDF5 file a run: fields that viewers open, and beside them everything that explains and reproduces
+the run."""
+
+from embedding.archive.reader import Archive, ArchivedBlock, open_archive
+from embedding.archive.recorder import Recorder
+from embedding.archive.repair import repair
+
+__all__ = ["Archive", "ArchivedBlock", "Recorder", "open_archive", "repair"]

@@ -1,0 +1,191 @@
+"""What an archive looks like inside: two groups side by side in one HDF5 file.
+
+::
+
+    /VTKHDF                        a PartitionedDataSetCollection (VTKHDF specification 2.2), for viewers
+        <block>                    UnstructuredGrid of Lagrange cells: Points, Connectivity, Offsets, Types
+            PointData/<field>      all steps one after another, float32
+            FieldData/<scalar>     links to the scalars below
+            Steps                  NSteps, Values (step numbers), and where each step's rows begin
+    /embedding                     what reproduces and explains the run
+        committed                  number of steps that count; everything behind them is to be ignored
+        scene, plan, scales, versions, run     documents: TOML, or JSON
+        steps/, scalars/           one row a step
+        newton/                    one row a Newton iteration; steps/newton_end says where a step's rows end
+        checkpoint/even, odd       degree-of-freedom vectors of the last accepted step, in alternating slots
+        finish/                    JSON of result, cost and error; ``length`` is 0 until the run has ended
+
+Rules that make it survive a kill at any moment (``writer.py`` keeps them): rows of a field start at a chunk
+of their own, so that no checksummed chunk of an old step is ever rewritten; every chunk index exists before
+the first commit; tables that share a chunk over steps carry no checksum.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import h5py
+import numpy as np
+import numpy.typing as npt
+
+from embedding.archive.lagrange import LagrangeBlock
+from embedding.archive.units import scalar_unit
+
+SCHEMA = 1
+LIBVER = ("v110", "v110")  # chunk indices of this format grow without being rewritten
+VTKHDF_VERSION = (2, 2)
+FIELD_CHUNK = 1 << 16  # rows at most in one chunk of a field
+TABLE_CHUNK = 256
+STAGE = h5py.string_dtype("utf-8", 64)
+STEP_COLUMNS = {
+    "number": ("i8", "1"), "stage": (STAGE, "1"), "newton_end": ("i8", "1"), "wall_seconds": ("f8", "s"),
+    "factor_mechanical": ("f8", "1"), "factor_field": ("f8", "1"),
+}
+NEWTON_COLUMNS = {
+    "number": ("i8", "1"), "update": ("f8", "1"), "residual": ("f8", "1"),
+    "pressure_top": ("f8", "Pa"), "pressure_bottom": ("f8", "Pa"),
+}
+SLOTS = ("even", "odd")
+KINDS = ("PointData", "CellData", "FieldData")
+
+
+def growable(
+    group: Any,
+    name: str,
+    dtype: Any,
+    unit: str,
+    shape: tuple[int, ...] = (),
+    chunk: int = TABLE_CHUNK,
+    checked: bool = False,
+) -> Any:
+    """An empty dataset (0, *shape) that grows along its first axis and whose chunk index exists already."""
+    dataset = group.create_dataset(
+        name,
+        shape=(0, *shape),
+        maxshape=(None, *shape),
+        chunks=(chunk, *shape),
+        dtype=dtype,
+        fletcher32=checked,
+    )
+    dataset.resize(1, axis=0)
+    dataset[0] = np.zeros(shape, dtype)
+    dataset.resize(0, axis=0)
+    dataset.attrs["unit"] = unit
+    return dataset
+
+
+def put(dataset: Any, start: int, rows: Any) -> None:
+    """Write ``rows`` from row ``start`` on, over whatever an unfinished step may have left there."""
+    dataset.resize(max(start + len(rows), len(dataset)), axis=0)
+    dataset[start : start + len(rows)] = rows
+
+
+def stride(points: int) -> tuple[int, int]:
+    """Rows between the beginnings of two steps of a field on ``points`` nodes, and rows of a chunk: a
+    multiple."""
+    chunks = -(-points // FIELD_CHUNK)
+    chunk = -(-points // chunks)
+    return chunks * chunk, chunk
+
+
+def create_record(file: Any, documents: Mapping[str, str], run: str) -> Any:
+    """Make the group /embedding with its documents and empty tables."""
+    record = file.create_group("embedding")
+    record.attrs["schema"] = SCHEMA
+    record.attrs["run"] = run
+    record["committed"] = np.zeros(1, "i8")
+    for name, text in documents.items():
+        record[name] = text
+    for table, columns in (("steps", STEP_COLUMNS), ("newton", NEWTON_COLUMNS)):
+        group = record.create_group(table)
+        for name, (dtype, unit) in columns.items():
+            growable(group, name, dtype, unit)
+    record.create_group("scalars")
+    finish = record.create_group("finish")
+    growable(finish, "json", "u1", "1", chunk=4096)
+    finish["length"] = np.zeros(1, "i8")
+    return record
+
+
+def create_scalars(record: Any, names: Sequence[str], per_length: bool) -> None:
+    """One growing column (n, 1) a scalar in /embedding/scalars."""
+    for name in names:
+        growable(record["scalars"], name, "f8", scalar_unit(name, per_length), shape=(1,))
+
+
+def create_checkpoint(record: Any, vectors: Mapping[str, npt.NDArray[Any]]) -> None:
+    """Two slots for the degree-of-freedom vectors: one holds the last accepted step while the other is
+    written."""
+    for slot in SLOTS:
+        group = record.create_group(f"checkpoint/{slot}")
+        for name, vector in vectors.items():
+            shape = np.shape(vector)
+            filters = {"fletcher32": True, "chunks": True} if np.size(vector) else {}
+            data = np.zeros(shape, np.asarray(vector).dtype)
+            group.create_dataset(name, data=data, **filters).attrs["unit"] = "1"
+
+
+def create_blocks(file: Any, blocks: Mapping[str, LagrangeBlock]) -> None:
+    """Make /VTKHDF with the meshes of all blocks; fields and steps come with the first step."""
+    root = _group(file, "VTKHDF", "PartitionedDataSetCollection")
+    assembly = root.create_group("Assembly", track_order=True).create_group("Scene", track_order=True)
+    for index, (name, block) in enumerate(blocks.items()):
+        group = _group(root, name, "UnstructuredGrid")
+        group.attrs["Index"] = np.int64(index)
+        group.attrs["order"] = np.int64(block.order)
+        assembly[name] = h5py.SoftLink(f"/VTKHDF/{name}")
+        cells, nodes = block.cells.shape
+        sizes = {"Points": block.point_count, "Cells": cells, "ConnectivityIds": cells * nodes}
+        for key, count in sizes.items():
+            group[f"NumberOf{key}"] = np.array([count], "i8")
+        arrays = {
+            "Points": (np.asarray(block.points, "f8"), "m"),
+            "Connectivity": (block.cells.ravel().astype("i8"), "1"),
+            "Offsets": (np.arange(cells + 1, dtype="i8") * nodes, "1"),
+            "Types": (np.full(cells, block.cell_type, "u1"), "1"),
+        }
+        for key, (data, unit) in arrays.items():
+            filters = {"compression": "gzip", "compression_opts": 1, "shuffle": True, "fletcher32": True}
+            group.create_dataset(key, data=data, chunks=True, **filters).attrs["unit"] = unit
+
+
+def create_fields(file: Any, fields: Mapping[str, Mapping[str, tuple[str, tuple[int, ...]]]]) -> None:
+    """Make the growing fields ``{block: {name: (unit, shape of a row)}}``, and the step tables of every
+    block.
+
+    The tables that are equal in all blocks exist once and are linked; scalars are links to
+    /embedding/scalars.
+    """
+    shared = file["embedding"].create_group("vtk")
+    growable(shared, "values", "f8", "1")
+    growable(shared, "row", "i8", "1")
+    growable(shared, "zero", "i8", "1")
+    growable(shared, "zeros", "i8", "1", shape=(1,))
+    growable(shared, "one", "i8", "1")
+    for block, declared in fields.items():
+        group = file["VTKHDF"][block]
+        steps = group.create_group("Steps", track_order=True)
+        steps.attrs.create("NSteps", np.int64(0))
+        steps["Values"] = shared["values"]
+        steps["PartOffsets"] = steps["PointOffsets"] = shared["zero"]
+        steps["CellOffsets"] = steps["ConnectivityIdOffsets"] = shared["zeros"]
+        steps["NumberOfParts"] = shared["one"]
+        points, chunk = stride(int(group["NumberOfPoints"][0]))
+        data = {kind: group.create_group(kind, track_order=True) for kind in KINDS}
+        offsets = {kind: steps.create_group(f"{kind}Offsets", track_order=True) for kind in KINDS}
+        first = growable(shared, f"first_row_of_{block}", "i8", "1")
+        for name, (unit, shape) in declared.items():
+            field = growable(data["PointData"], name, "f4", unit, shape, chunk, checked=True)
+            field.attrs["stride"] = points
+            offsets["PointData"][name] = first
+        for name, dataset in file["embedding/scalars"].items():
+            data["FieldData"][name] = dataset
+            offsets["FieldData"][name] = shared["row"]
+
+
+def _group(parent: Any, name: str, kind: str) -> Any:
+    group = parent.create_group(name, track_order=True)
+    group.attrs["Version"] = np.array(VTKHDF_VERSION, "i8")
+    group.attrs.create("Type", np.bytes_(kind))
+    return group

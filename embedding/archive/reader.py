@@ -1,0 +1,310 @@
+"""Reading an archive: what was asked, what came out, step by step."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from embedding.archive.file import reading
+from embedding.archive.layout import NEWTON_COLUMNS, SLOTS
+from embedding.errors import ArchiveError
+from embedding.scene import Scales, Scene
+from embedding.solving.events import Iteration, StepRecord
+
+Floats = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ArchivedDecision:
+    """One choice of the plan, and why it was made."""
+
+    topic: str
+    choice: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class ArchivedPlan:
+    """The plan the run followed."""
+
+    decisions: tuple[ArchivedDecision, ...]
+    lines: str
+
+    def text(self) -> str:
+        """The plan as it was printed."""
+        return self.lines
+
+
+@dataclass(frozen=True)
+class ArchivedResult:
+    """How the run ended: the name of the result, what it advises, and the message of this run."""
+
+    name: str
+    advice: str
+    message: str
+
+
+@dataclass(frozen=True)
+class ArchivedError:
+    """Estimated error of the run: ``value`` relative to ``quantity``, found by ``method``."""
+
+    value: float
+    quantity: str
+    method: str
+
+
+@dataclass(frozen=True)
+class ArchivedCost:
+    """What the run cost: seconds, bytes at the peak, unknowns by space, and seconds by part of the solver."""
+
+    wall_seconds: float
+    cpu_seconds: float
+    peak_memory_bytes: int
+    unknowns: dict[str, int]
+    parts: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Newton:
+    """The Newton iterations of a step, one entry each: scaled norms, and the mean face pressures in Pa."""
+
+    number: npt.NDArray[np.int64]
+    update: Floats
+    residual: Floats
+    pressure_top: Floats
+    pressure_bottom: Floats
+
+
+UNFINISHED = ArchivedResult(
+    "unfinished", "the run was killed or is still at work; the steps committed so far can be used",
+    "the archive holds no end of the run",
+)
+
+
+def open_archive(path: str | os.PathLike[str]) -> Archive:
+    """The archive at ``path``. Between calls the file is closed, so an archive may be read while its run is
+    at work.
+
+    Raises ArchiveError, naming the path and what is wrong: missing, not HDF5, truncated, damaged, or not an
+    archive.
+    """
+    archive = Archive(Path(path))
+    archive.refresh()
+    return archive
+
+
+class Archive:
+    """What a run recorded. Steps are counted from 0, and from the last with -1, as in Python's sequences.
+
+    Every access raises ArchiveError if the file has become unreadable or the part that is asked for is
+    damaged.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._committed = 0
+
+    def refresh(self) -> int:
+        """Look for steps committed since the archive was opened; returns how many there are now."""
+        with reading(self.path) as file:
+            self._committed = int(file["embedding/committed"][0])
+        for name in ("steps", "scalars", "_end"):
+            self.__dict__.pop(name, None)
+        return self._committed
+
+    def __len__(self) -> int:
+        """Number of committed steps."""
+        return self._committed
+
+    @cached_property
+    def scene(self) -> str:
+        """The scene as TOML."""
+        return self._text("scene")
+
+    def scene_object(self) -> Scene:
+        """The scene, ready to be solved again. Raises SceneError if this version no longer accepts it."""
+        return Scene.from_toml(self.scene, source=str(self.path))
+
+    @cached_property
+    def plan(self) -> ArchivedPlan:
+        """Decisions of the plan."""
+        plan = self._json("plan")
+        return ArchivedPlan(tuple(ArchivedDecision(**one) for one in plan["decisions"]), plan["text"])
+
+    @cached_property
+    def scales(self) -> Scales:
+        """The scales of the run."""
+        return Scales(**self._json("scales"))
+
+    @cached_property
+    def versions(self) -> dict[str, str]:
+        """Versions of the packages, of Python and of the platform that made the numbers."""
+        return cast(dict[str, str], self._json("versions"))
+
+    @cached_property
+    def run(self) -> dict[str, Any]:
+        """``name`` of the scene, ``reduction``, ``mirrors`` (names of the symmetry planes) and ``started``
+        (ISO time)."""
+        return cast(dict[str, Any], self._json("run"))
+
+    @property
+    def result(self) -> ArchivedResult:
+        """How the run ended; its name is "unfinished" as long as it has not."""
+        return ArchivedResult(**self._end["result"]) if self._end else UNFINISHED
+
+    @property
+    def error(self) -> ArchivedError | None:
+        """The estimated error, if the run has ended with one."""
+        return ArchivedError(**self._end["error"]) if self._end.get("error") else None
+
+    @property
+    def cost(self) -> ArchivedCost | None:
+        """What the run cost, if it has ended."""
+        return ArchivedCost(**self._end["cost"]) if self._end.get("cost") else None
+
+    @property
+    def cuts(self) -> tuple[dict[str, Any], ...]:
+        """Steps that failed and were retried shorter (``step``, ``fraction``, ``reason``), known once the
+        run has ended."""
+        return tuple(self._end.get("cuts", ()))
+
+    @cached_property
+    def steps(self) -> tuple[StepRecord, ...]:
+        """The records of all committed steps, as the solver gave them."""
+        with reading(self.path) as file:
+            table = {name: column[: self._committed] for name, column in file["embedding/steps"].items()}
+            ends = table.pop("newton_end").tolist()
+            rows = ends[-1] if ends else 0
+            newton = [file["embedding/newton"][name][:rows].tolist() for name in NEWTON_COLUMNS]
+        columns = {name: column.tolist() for name, column in table.items()}
+        columns["stage"] = [stage.decode() for stage in columns["stage"]]
+        iterations = [Iteration(*row) for row in zip(*newton, strict=True)]
+        own = [name for name in self.scalars if name not in columns]
+        return tuple(
+            StepRecord(
+                **{name: column[step] for name, column in columns.items()},
+                iterations=tuple(iterations[ends[step - 1] if step else 0 : ends[step]]),
+                scalars={name: float(self.scalars[name][step]) for name in own},
+            )
+            for step in range(self._committed)
+        )
+
+    @cached_property
+    def scalars(self) -> dict[str, Floats]:
+        """Every scalar over the steps, in SI units, and the load factors ``factor_mechanical`` and
+        ``factor_field``."""
+        with reading(self.path) as file:
+            group = file["embedding/scalars"]
+            return {name: column[: self._committed, 0] for name, column in group.items()}
+
+    @cached_property
+    def scalar_units(self) -> dict[str, str]:
+        """SI unit of every scalar."""
+        with reading(self.path) as file:
+            return {name: str(column.attrs["unit"]) for name, column in file["embedding/scalars"].items()}
+
+    def newton(self, step: int = -1) -> Newton:
+        """All Newton iterations of a step."""
+        rows = self.steps[self.index(step)].iterations
+        columns = {name: np.array([getattr(row, name) for row in rows]) for name in NEWTON_COLUMNS}
+        return Newton(**columns)
+
+    def checkpoint(self, step: int = -1) -> dict[str, npt.NDArray[Any]]:
+        """Degree-of-freedom vectors of the last committed step, by name; no other step keeps them."""
+        last = len(self) - 1
+        if self.index(step) != last:
+            raise ArchiveError(f"{self.path}: only the last step ({last}) has a checkpoint, not step {step}")
+        with reading(self.path) as file:
+            slot = file["embedding/checkpoint"].get(SLOTS[len(self) % 2], {})
+            return {name: vector[...] for name, vector in slot.items()}
+
+    @cached_property
+    def blocks(self) -> tuple[str, ...]:
+        """Names of the blocks: "shell", and with a field "outside" and "inside"."""
+        with reading(self.path) as file:
+            return tuple(file["VTKHDF/Assembly/Scene"])
+
+    def block(self, name: str) -> ArchivedBlock:
+        """The block called ``name``. Raises ArchiveError, listing the blocks there are."""
+        if name not in self.blocks:
+            raise ArchiveError(f"{self.path}: no block {name!r}; there are {', '.join(self.blocks)}")
+        return ArchivedBlock(self, name)
+
+    def verify(self) -> None:
+        """Read everything that counts, so that every checksum is compared. Raises ArchiveError at the first
+        damage."""
+        for step in self.steps:
+            self.newton(self.steps.index(step))
+        if len(self):
+            self.checkpoint()
+        for name in self.blocks:
+            block = self.block(name)
+            if block.points.shape[0] <= int(block.cells.max(initial=-1)):
+                raise ArchiveError(f"{self.path}: the cells of block {name!r} name nodes that do not exist")
+            for field in block.fields:
+                for number in range(len(self)):
+                    block.field(field, number)
+
+    def index(self, step: int) -> int:
+        """``step`` as a number from 0 on. Raises ArchiveError if there is no such step."""
+        count = len(self)
+        if not -count <= step < count:
+            raise ArchiveError(f"{self.path}: no step {step}; {count} steps are committed")
+        return step % count
+
+    @cached_property
+    def _end(self) -> dict[str, Any]:
+        with reading(self.path) as file:
+            finish = file["embedding/finish"]
+            length = int(finish["length"][0])
+            return cast(dict[str, Any], json.loads(finish["json"][:length].tobytes())) if length else {}
+
+    def _text(self, name: str) -> str:
+        with reading(self.path) as file:
+            return str(file["embedding"][name].asstr()[()])
+
+    def _json(self, name: str) -> Any:
+        return json.loads(self._text(name))
+
+
+class ArchivedBlock:
+    """One part of the mesh as VTK Lagrange cells, with its fields at every committed step."""
+
+    def __init__(self, archive: Archive, name: str) -> None:
+        self.archive, self.name = archive, name
+        with reading(archive.path) as file:
+            group = file["VTKHDF"][name]
+            self.order = int(group.attrs["order"])
+            self.points: Floats = group["Points"][...]
+            self.cell_type = int(group["Types"][0])
+            nodes = int(group["Offsets"][1])
+            self.cells: npt.NDArray[np.int64] = group["Connectivity"][...].reshape(-1, nodes)
+            data = group.get("PointData", {})
+            self.units: dict[str, str] = {field: str(column.attrs["unit"]) for field, column in data.items()}
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """Names of the fields."""
+        return tuple(self.units)
+
+    def field(self, name: str, step: int = -1) -> npt.NDArray[np.float32]:
+        """Values of a field at the nodes, (n,) or (n, 3), in its SI unit (``units``).
+
+        Raises ArchiveError if there is no such field or step, listing what there is.
+        """
+        if name not in self.units:
+            there = ", ".join(self.fields)
+            where = f"{self.archive.path}: block {self.name!r}"
+            raise ArchiveError(f"{where} has no field {name!r}; there are {there}")
+        number = self.archive.index(step)
+        with reading(self.archive.path) as file:
+            dataset = file["VTKHDF"][self.name]["PointData"][name]
+            begin = number * int(dataset.attrs["stride"])
+            return cast(npt.NDArray[np.float32], dataset[begin : begin + len(self.points)])

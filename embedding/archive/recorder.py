@@ -1,0 +1,126 @@
+"""The listener that records a solve in an archive."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import json
+import os
+import platform
+from dataclasses import asdict
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from embedding.archive.lagrange import LagrangeBlock
+from embedding.archive.writer import ArchiveWriter, SampledField, check_target
+from embedding.solving.events import Listener
+
+if TYPE_CHECKING:
+    from embedding.solving.events import Field, StepRecord
+    from embedding.solving.problem import Problem
+    from embedding.solving.solution import Solution
+    from embedding.solving.state import State
+
+PACKAGES = ("embedding", "ngsolve", "netgen-mesher", "numpy", "scipy", "h5py")
+CONTINUOUS = frozenset({"u", "phi"})  # inside a block, so that shared nodes need no averaging
+
+
+class Recorder(Listener):
+    """Writes the archive of a solve at ``path``: each step as it is accepted, and at the end the result,
+    cost and error.
+
+    ``order`` of the pictured cells is that of the discretisation unless given. A solve that fails after its
+    first step leaves its accepted steps and says why it failed; what becomes of an older archive at
+    ``path``, and of a solve without a single accepted step, is told at ``ArchiveWriter``. ``Recorder.path``
+    is where the record is.
+
+    Raises ArchiveError, at construction already if ``path`` cannot be written.
+    """
+
+    def __init__(self, path: str | os.PathLike[str], order: int | None = None) -> None:
+        self._target = check_target(path)
+        self._order = order
+        self._writer: ArchiveWriter | None = None
+        self._problem: Problem | None = None
+        self._cuts: list[dict[str, Any]] = []
+
+    @property
+    def path(self) -> Path:
+        """Where the record of the run is, or will be."""
+        return self._writer.path if self._writer is not None else self._target
+
+    def started(self, problem: Problem) -> None:
+        """Build the pictured blocks; nothing is written yet."""
+        order = problem.scene.discretisation.order if self._order is None else self._order
+        blocks = {
+            name: LagrangeBlock(problem.mesh, block.region, order, continuous=True, embed=problem.embed)
+            for name, block in problem.blocks.items()
+        }
+        per_length = problem.reduction.name == "plane-strain"
+        self._problem, self._cuts = problem, []
+        self._writer = ArchiveWriter(self._target, blocks, documents(problem), per_length)
+
+    def accepted(self, state: State, record: StepRecord) -> None:
+        """Commit the step."""
+        writer, problem = self._writer, self._problem
+        if writer is not None and problem is not None:
+            fields = [_sampled(writer.blocks[field.block], field, problem) for field in state.fields()]
+            writer.append(record, fields, state.vectors())
+
+    def cut(self, step_number: int, fraction: float, reason: str) -> None:
+        """Remember the cut; it is written with the end of the run."""
+        self._cuts.append({"step": step_number, "fraction": fraction, "reason": reason})
+
+    def finished(self, solution: Solution) -> None:
+        """Write how the run ended."""
+        if self._writer is None:
+            return
+        result = solution.result
+        self._writer.finish(
+            {
+                "result": {"name": result.name, "advice": result.advice, "message": solution.message},
+                "error": asdict(solution.error),
+                "cost": asdict(solution.cost),
+                "cuts": self._cuts,
+            }
+        )
+
+
+def _sampled(block: LagrangeBlock, field: Field, problem: Problem) -> SampledField:
+    values = block.sample(field.values, average=field.name not in CONTINUOUS)
+    if values.ndim == 2:
+        values = np.asarray(problem.embed_vector(values))
+    return SampledField(field.block, field.name, field.unit, values)
+
+
+def documents(problem: Problem) -> dict[str, str]:
+    """What reproduces the run, as named texts: TOML for the scene, JSON for the rest."""
+    plan = problem.plan
+    data: dict[str, Any] = {
+        "plan": {
+            "text": plan.text(),
+            "decisions": [{"topic": d.topic, "choice": d.choice, "reason": d.reason} for d in plan.decisions],
+        },
+        "scales": asdict(problem.scales),
+        "versions": versions(),
+        "run": {
+            "name": problem.scene.name,
+            "reduction": problem.reduction.name,
+            "mirrors": list(getattr(problem.reduction, "planes", ())),
+            "started": datetime.now(UTC).isoformat(timespec="seconds"),
+        },
+    }
+    return {"scene": problem.scene.to_toml(), **{name: json.dumps(value) for name, value in data.items()}}
+
+
+def versions() -> dict[str, str]:
+    """Versions of the packages that determine the numbers, of Python and of the platform."""
+    found = {"python": platform.python_version(), "platform": platform.platform()}
+    for package in PACKAGES:
+        try:
+            found[package] = importlib.metadata.version(package)
+        except importlib.metadata.PackageNotFoundError:
+            found[package] = "not installed"
+    return found

@@ -1,0 +1,88 @@
+"""Making an archive of a killed run as good as one that was closed."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from embedding.archive.file import reading
+from embedding.archive.layout import LIBVER
+from embedding.errors import ArchiveError
+
+
+def repair(path: str | os.PathLike[str]) -> int:
+    """Rewrite the archive at ``path`` so that viewers open it too, and return its number of steps.
+
+    A run killed in the middle of a commit leaves its file marked as open for writing. ``open_archive``
+    reads it all the same, viewers refuse it. What was committed is copied to a fresh file, which then takes
+    the place of the old one; nothing is changed in place. Don't call it while the run is at work.
+
+    Raises ArchiveError if the archive cannot be read, or the copy not be written.
+    """
+    source = Path(path)
+    temporary = source.with_name(f"{source.name}.partial")
+    with reading(source) as old:
+        try:
+            with h5py.File(temporary, "w", libver=LIBVER, locking=False) as new:
+                copy = _Copy(old)
+                copy.group(old, new)
+            os.replace(temporary, source)
+        except OSError as error:
+            raise ArchiveError(f"{source}: cannot be repaired: {error}") from error
+    return copy.committed
+
+
+class _Copy:
+    """Copies what counts of an open archive; datasets that are linked from several groups stay one
+    dataset."""
+
+    def __init__(self, file: Any) -> None:
+        self.committed = int(file["embedding/committed"][0])
+        ends = file["embedding/steps/newton_end"] if self.committed else []
+        self.newton = int(ends[self.committed - 1]) if self.committed else 0
+        self.finish = int(file["embedding/finish/length"][0])
+        self.copied: dict[Any, Any] = {}
+
+    def group(self, old: Any, new: Any) -> None:
+        """Fill the group ``new`` with the attributes and members of ``old``."""
+        for name, value in old.attrs.items():
+            new.attrs[name] = np.int64(self.committed) if name == "NSteps" else value
+        for name in old:
+            link = old.get(name, getlink=True)
+            if isinstance(link, h5py.SoftLink):
+                new[name] = h5py.SoftLink(link.path)
+            elif isinstance(old[name], h5py.Group):
+                self.group(old[name], new.create_group(name, track_order=True))
+            else:
+                self.dataset(old[name], new, name)
+
+    def dataset(self, old: Any, group: Any, name: str) -> None:
+        """Copy a dataset, cut down to the rows that count, or link to the copy that exists already."""
+        place = h5py.h5o.get_info(old.id).addr
+        if place in self.copied:
+            group[name] = self.copied[place]
+        elif old.maxshape and old.maxshape[0] is None:
+            self.copied[place] = self.table(old, group, name)
+        else:
+            old.file.copy(old, group, name)
+            self.copied[place] = group[name]
+
+    def table(self, old: Any, group: Any, name: str) -> Any:
+        """Copy the rows that count of a dataset that grows."""
+        block = int(old.attrs.get("stride", 1))
+        blocks = {"newton": self.newton, "finish": self.finish}.get(group.name.split("/")[-1], self.committed)
+        rows = min(blocks * block, len(old))  # the last step of a field is not padded
+        new = group.create_dataset(
+            name, shape=(rows, *old.shape[1:]), maxshape=old.maxshape, chunks=old.chunks, dtype=old.dtype,
+            fletcher32=old.fletcher32,
+        )
+        pace = max(block, 1 << 16)
+        for begin in range(0, rows, pace):
+            new[begin : begin + pace] = old[begin : min(begin + pace, rows)]
+        for key, value in old.attrs.items():
+            new.attrs[key] = value
+        return new

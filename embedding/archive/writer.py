@@ -1,0 +1,233 @@
+"""Writing an archive so that a killed run never loses, and never damages, a step that was committed.
+
+Every step is written in two phases: first all its rows, behind everything that counts; then, when they have
+reached the disk, the number of steps that count. Between steps the file is closed. ``layout.py`` says what
+the file holds.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import uuid
+from collections.abc import Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+import numpy.typing as npt
+
+from embedding.archive import layout, views
+from embedding.archive.lagrange import LagrangeBlock
+from embedding.errors import ArchiveError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from embedding.solving.events import StepRecord
+
+
+@dataclass(frozen=True)
+class SampledField:
+    """Values of a field at the nodes of a block: (n,) for a scalar, (n, 3) for a vector; ``unit`` is SI."""
+
+    block: str
+    name: str
+    unit: str
+    values: npt.NDArray[np.float64]
+
+
+class ArchiveWriter:
+    """Writes one run. Nothing is on disk before the first step is.
+
+    The first step goes to ``<name>.partial``, which takes the place of ``target`` only when that step is
+    committed: an archive that was there before stays whole until then, whatever happens to this run. A run
+    that ends without an accepted step leaves its record (why it failed) at ``target`` if nothing is there,
+    else at ``<stem>.failed<suffix>``. ``path`` says where the record is, or will be.
+
+    Raises ArchiveError if the target cannot be written, if the disk fails, or if another run has taken the
+    file.
+    """
+
+    def __init__(
+        self,
+        target: str | os.PathLike[str],
+        blocks: Mapping[str, LagrangeBlock],
+        documents: Mapping[str, str],
+        per_length: bool = False,
+    ) -> None:
+        self.target = check_target(target)
+        self.path = self.target
+        self.blocks, self.documents, self.per_length = dict(blocks), dict(documents), per_length
+        self.committed = 0
+        self._run = uuid.uuid4().hex
+        self._partial = self.target.with_name(f"{self.target.name}.partial")
+
+    def append(
+        self, record: StepRecord, fields: Sequence[SampledField], vectors: Mapping[str, npt.NDArray[Any]]
+    ) -> None:
+        """Commit one accepted step: its record, the fields of all blocks and the degree-of-freedom vectors.
+
+        The fields, scalars and vectors of the first step are those of the run.
+        """
+        if self.committed:
+            with self._open(self.path, "r+") as file:
+                self._step(file, record, fields, vectors)
+            self.committed += 1
+            return
+        with self._open(self._partial, "w") as file:
+            self._create(file)
+            layout.create_scalars(file["embedding"], list(_scalars(record)), self.per_length)
+            layout.create_checkpoint(file["embedding"], vectors)
+            declared: dict[str, dict[str, tuple[str, tuple[int, ...]]]] = {name: {} for name in self.blocks}
+            for field in fields:
+                declared[field.block][field.name] = (field.unit, field.values.shape[1:])
+            layout.create_fields(file, declared)
+            self._step(file, record, fields, vectors)
+        self.committed = 1
+        self._place(self.target, list(self.blocks))
+
+    def finish(self, summary: Mapping[str, Any]) -> None:
+        """Add how the run ended; ``summary`` is plain data for JSON."""
+        data = np.frombuffer(json.dumps(summary, default=_plain).encode(), "u1")
+        if self.committed:
+            with self._open(self.path, "r+") as file:
+                self._end(file, data)
+            return
+        with self._open(self._partial, "w") as file:
+            self._create(file)
+            self._end(file, data)
+        taken = self.target.exists()
+        self._place(self.target.with_stem(f"{self.target.stem}.failed") if taken else self.target, [])
+
+    def _create(self, file: Any) -> None:
+        layout.create_record(file, self.documents, self._run)
+        layout.create_blocks(file, self.blocks)
+
+    def _step(
+        self,
+        file: Any,
+        record: StepRecord,
+        fields: Sequence[SampledField],
+        vectors: Mapping[str, npt.NDArray[Any]],
+    ) -> None:
+        own, step = file["embedding"], self.committed
+        for field in fields:
+            rows = field.values.astype("f4")
+            dataset = self._known(file, f"VTKHDF/{field.block}/PointData", field.name)
+            layout.put(dataset, step * int(dataset.attrs["stride"]), rows)
+        for name, value in _scalars(record).items():
+            layout.put(self._known(file, "embedding/scalars", name), step, [[value]])
+        self._rows(own, record)
+        shared = own["vtk"]
+        tables: dict[str, Any] = {"values": record.number, "row": step, "zero": 0, "zeros": [0], "one": 1}
+        for name, entry in tables.items():
+            layout.put(shared[name], step, [entry])
+        for block in self.blocks:
+            points = int(file["VTKHDF"][block]["NumberOfPoints"][0])
+            layout.put(shared[f"first_row_of_{block}"], step, [step * layout.stride(points)[0]])
+        slot = f"embedding/checkpoint/{layout.SLOTS[(step + 1) % 2]}"
+        for name, vector in vectors.items():
+            self._known(file, slot, name)[...] = vector
+        _synchronise(file)
+        for block in self.blocks:
+            file["VTKHDF"][block]["Steps"].attrs.modify("NSteps", np.int64(step + 1))
+        own["committed"][0] = step + 1
+        _synchronise(file)
+
+    def _rows(self, own: Any, record: StepRecord) -> None:
+        """The rows of a step in the tables of steps and of Newton iterations."""
+        step = self.committed
+        begin = int(own["steps/newton_end"][step - 1]) if step else 0
+        for name in layout.NEWTON_COLUMNS:
+            layout.put(own["newton"][name], begin, [getattr(one, name) for one in record.iterations])
+        row = {
+            "number": record.number, "stage": _short(record.stage), "wall_seconds": record.wall_seconds,
+            "factor_mechanical": record.factor_mechanical, "factor_field": record.factor_field,
+            "newton_end": begin + len(record.iterations),
+        }
+        for name in layout.STEP_COLUMNS:
+            layout.put(own["steps"][name], step, [row[name]])
+
+    def _end(self, file: Any, data: npt.NDArray[np.uint8]) -> None:
+        finish = file["embedding/finish"]
+        layout.put(finish["json"], 0, data)
+        _synchronise(file)
+        finish["length"][0] = len(data)
+        _synchronise(file)
+
+    def _known(self, file: Any, group: str, name: str) -> Any:
+        if name not in file[group]:
+            raise ArchiveError(f"{self.path}: a step brings {name!r}, which the first step did not have")
+        return file[group][name]
+
+    @contextmanager
+    def _open(self, path: Path, mode: str) -> Iterator[Any]:
+        """The file, open for one commit. Locks are not asked for: a viewer that holds the file must not end
+        the run."""
+        try:
+            with h5py.File(path, mode, libver=layout.LIBVER, locking=False) as file:
+                if mode == "r+" and ("embedding" not in file or file["embedding"].attrs["run"] != self._run):
+                    raise ArchiveError(f"{path}: another run has replaced the archive of this one")
+                yield file
+        except (OSError, RuntimeError) as error:
+            kept = f"; the {self.committed} steps committed before are kept" if self.committed else ""
+            raise ArchiveError(f"{path}: cannot write the archive: {error}{kept}") from error
+
+    def _place(self, path: Path, blocks: list[str]) -> None:
+        """Move the partial file to its final name and write the view files of its blocks."""
+        try:
+            os.replace(self._partial, path)
+            _to_disk(path.parent)
+            self.path = path
+            views.write_views(path, blocks)
+        except OSError as error:
+            raise ArchiveError(f"{path}: cannot write the archive: {error}") from error
+
+
+def check_target(target: str | os.PathLike[str]) -> Path:
+    """Return ``target`` as a path if an archive can be written there.
+
+    Raises ArchiveError if it is a folder, if its folder does not exist, or if writing is not permitted.
+    """
+    path = Path(target)
+    if path.is_dir():
+        raise ArchiveError(f"{path}: is a folder; an archive needs the name of a file")
+    if not path.parent.is_dir():
+        raise ArchiveError(f"{path}: the folder {path.parent} does not exist")
+    if not os.access(path.parent, os.W_OK):
+        raise ArchiveError(f"{path}: no permission to write into the folder {path.parent}")
+    return path
+
+
+def _synchronise(file: Any) -> None:
+    """Bring everything written so far to the disk, before anything is written that relies on it."""
+    file.flush()
+    _to_disk(file.filename)
+
+
+def _to_disk(path: str | os.PathLike[str]) -> None:
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def _scalars(record: StepRecord) -> dict[str, float]:
+    return {
+        **record.scalars, "factor_mechanical": record.factor_mechanical, "factor_field": record.factor_field,
+    }
+
+
+def _plain(value: Any) -> Any:
+    """NumPy's numbers as Python's, paths as texts."""
+    return value.item() if isinstance(value, np.generic) else str(value)
+
+
+def _short(text: str) -> bytes:
+    """As much of ``text`` as the fixed column of stages holds, cut between characters."""
+    return text.encode()[: layout.STAGE.itemsize].decode(errors="ignore").encode()
