@@ -41,7 +41,7 @@ def run(
 ) -> None:
     """Solve a scene and write its archive.
 
-    The archive opens in ParaView as it is; `embedding info` and `embedding plot` read it. A solve that fails
+    ParaView opens the views beside it; `embedding info` and `embedding plot` read it. A solve that fails
     leaves the accepted steps in it (exit code 3).
     """
     from embedding.scene import load_scene

@@ -35,6 +35,7 @@ class ProgressDisplay(Listener):
         self.title, self.planned, self.stage_ends = "", 0, list[tuple[int, str]]()
         self.accepted_steps, self.step_number = 0, 1
         self.target: dict[str, float] = {}
+        self.has_field = False
         self.newton: list[Iteration] = []
         self.last: StepRecord | None = None
         self.note = ""
@@ -60,6 +61,7 @@ class ProgressDisplay(Listener):
     def started(self, problem: Problem) -> None:
         """The problem is meshed: say what will be solved."""
         stages = problem.scene.path
+        self.has_field = problem.scene.ambient is not None
         self.planned = sum(stage.steps for stage in stages)
         self.stage_ends = [
             (sum(stage.steps for stage in stages[: k + 1]), stage.name) for k, stage in enumerate(stages)
@@ -80,8 +82,7 @@ class ProgressDisplay(Listener):
         """A step is done."""
         self.accepted_steps, self.last, self.note = self.accepted_steps + 1, record, ""
         self._line(
-            f"step {record.number}/{max(self.planned, record.number)} ({record.stage}): "
-            f"mechanical {record.factor_mechanical:.4g}, field {record.factor_field:.4g}, "
+            f"step {record.number}/{max(self.planned, record.number)} ({record.stage}): {self._load()}, "
             f"{len(record.iterations)} iterations{self._stretch(record)}, {self._elapsed()}"
         )
 
@@ -109,8 +110,7 @@ class ProgressDisplay(Listener):
         )
         parts: list[Table | Text] = [head]
         if self.newton:
-            load = ", ".join(f"{name} {value:.4g}" for name, value in self.target.items())
-            parts.append(Text(f"step {self.step_number}, {self._stage()}: {load}"))
+            parts.append(Text(f"step {self.step_number}, {self._stage()}: {self._load()}"))
             parts.append(self._history())
         if self.last is not None:
             parts.append(
@@ -141,6 +141,11 @@ class ProgressDisplay(Listener):
             if self.step_number <= end:
                 return name
         return self.stage_ends[-1][1] if self.stage_ends else ""
+
+    def _load(self) -> str:
+        """The load of the present step in words, without what the scene does not have."""
+        shown = {name: value for name, value in self.target.items() if self.has_field or name != "field"}
+        return ", ".join(f"{name.replace('_', ' ')} {value:.4g}" for name, value in shown.items())
 
     def _stretch(self, record: StepRecord) -> str:
         """The mean stretch of an accepted step, if the solver gave one."""
