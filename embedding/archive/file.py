@@ -16,7 +16,7 @@ from embedding.archive.views import viewed_archive
 from embedding.errors import ArchiveError
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
-PATIENCE, PAUSE, ATTEMPTS = 0.5, 0.02, 200  # seconds: a live run closes its file soon after it last wrote to it
+PATIENCE, PAUSE, ATTEMPTS = 0.5, 0.02, 200  # s: a live run closes its file soon after it last wrote to it
 
 
 @contextmanager

@@ -53,11 +53,13 @@ class ArchivedResult:
 
 @dataclass(frozen=True)
 class ArchivedError:
-    """Estimated error of the run: ``value`` relative to ``quantity``, found by ``method``."""
+    """Estimated relative error of ``quantity`` at the last step: the sum of ``parts``, found by
+    ``method``."""
 
     value: float
     quantity: str
     method: str
+    parts: dict[str, float]
 
 
 @dataclass(frozen=True)
@@ -150,8 +152,8 @@ class Archive:
 
     @cached_property
     def run(self) -> dict[str, Any]:
-        """``name`` of the scene, ``reduction``, ``mirrors`` (names of the symmetry planes) and ``started``
-        (ISO time)."""
+        """``name`` of the scene, ``reduction``, ``mirrors`` (names of the symmetry planes), ``odd_mirrors``
+        (those across which the potential changes sign) and ``started`` (ISO time)."""
         return cast(dict[str, Any], self._json("run"))
 
     @property

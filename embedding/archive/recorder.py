@@ -81,7 +81,7 @@ class Recorder(Listener):
         self._writer.finish(
             {
                 "result": {"name": result.name, "advice": result.advice, "message": solution.message},
-                "error": asdict(solution.error),
+                "error": None if solution.error is None else asdict(solution.error),
                 "cost": asdict(solution.cost),
                 "cuts": self._cuts,
             }
@@ -108,7 +108,8 @@ def documents(problem: Problem) -> dict[str, str]:
         "run": {
             "name": problem.scene.name,
             "reduction": problem.reduction.name,
-            "mirrors": list(getattr(problem.reduction, "planes", ())),
+            "mirrors": list(problem.reduction.planes),
+            "odd_mirrors": list(plan.odd_planes),
             "started": datetime.now(UTC).isoformat(timespec="seconds"),
         },
     }

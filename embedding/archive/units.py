@@ -4,13 +4,11 @@ cylinder."""
 from __future__ import annotations
 
 UNITS = {
-    "stretch": "1", "stretch_max": "1", "volume_ratio": "1", "min_jacobian": "1", "axial_stretch": "1",
-    "factor_mechanical": "1", "factor_field": "1",
-    "pressure_top": "Pa", "pressure_bottom": "Pa", "pressure_difference": "Pa",
-    "voltage": "V", "wall_seconds": "s",
+    "pressure_top": "Pa", "pressure_bottom": "Pa", "pressure_difference": "Pa", "min_principal_stress": "Pa",
+    "voltage": "V",
 }
 EXTENSIVE = {
-    "charge": "C", "field_energy": "J", "elastic_energy": "J", "energy": "J",
+    "charge": "C", "field_energy": "J", "elastic_energy": "J",
     "force_x": "N", "force_y": "N", "force_z": "N",
 }
 

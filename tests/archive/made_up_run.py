@@ -1,8 +1,10 @@
-"""Solves that only pretend: real meshes and coefficient functions with known fields, told to a listener step by step.
+"""Solves that only pretend: real meshes and coefficient functions with known fields, told to a listener
+step by step.
 
-A sphere of radius 1 in a ball of radius 3 (3D: the octant between the mirror planes x, y, z; axisymmetric: the half
-disc), a circle in a disc (plane strain), and a bare shell without ambient. The shell stretches along z as the load
-grows; outside is a uniform field with a dipole, inside a uniform field, as around a permeable sphere.
+A sphere of radius 1 in a ball of radius 3 (3D: the octant between the mirror planes x, y, z; axisymmetric:
+the half disc), a circle in a disc (plane strain), and a bare shell without ambient. The shell stretches
+along z as the load grows; outside is a uniform field with a dipole, inside a uniform field, as around a
+permeable sphere.
 """
 
 from __future__ import annotations
@@ -16,7 +18,7 @@ from typing import Any
 import numpy as np
 from netgen.occ import Box, Glue, OCCGeometry, Pnt, Rectangle, WorkPlane
 from netgen.occ import Sphere as SphereSolid
-from ngsolve import BND, CF, H1, GridFunction, IfPos, Mesh, Norm, specialcf, sqrt, x, y, z
+from ngsolve import CF, H1, GridFunction, IfPos, Mesh, specialcf, sqrt, x, y, z
 
 from embedding.scene import Scales, Scene
 from embedding.solving.events import Field, Iteration, Listener, StepRecord
@@ -31,6 +33,7 @@ class Estimate:
     value: float = 2e-4
     quantity: str = "stretch"
     method: str = "one order lower"
+    parts: dict[str, float] = field(default_factory=lambda: {"mesh": 2e-4})
 
 
 @dataclass(frozen=True)
@@ -123,7 +126,9 @@ class Problem:
         planes = ("x", "y", "z") if reduction == "3d" else ()
         self.reduction = SimpleNamespace(name=reduction, planes=planes)
         decision = SimpleNamespace(topic="reduction", choice=reduction, reason="the test wants it")
-        self.plan = SimpleNamespace(decisions=(decision,), text=lambda: f"reduction: {reduction}")
+        self.plan = SimpleNamespace(
+            decisions=(decision,), text=lambda: f"reduction: {reduction}", odd_planes=planes[2:]
+        )
         self.blocks = {
             "shell": SimpleNamespace(name="shell", region=self.mesh.Boundaries("shell"), codim=1),
             "outside": SimpleNamespace(name="outside", region=self.mesh.Materials("outside"), codim=0),
@@ -194,11 +199,17 @@ def record(number: int, of: int) -> StepRecord:
     """An accepted step with as many iterations as its number, but at least two."""
     t = number / of
     iterations = tuple(
-        Iteration(k, 10.0**-k, 10.0 ** (-2 * k), 40.0 * t + k, 140.0 * t + k) for k in range(1, max(3, number + 1))
+        Iteration(k, 10.0**-k, 10.0 ** (-2 * k), 40.0 * t + k, 140.0 * t + k)
+        for k in range(1, max(3, number + 1))
     )
     scalars = {
-        "stretch": 1 + 0.2 * t, "stretch_max": 1 + 0.3 * t, "pressure_top": 40.0 * t, "pressure_bottom": 140.0 * t,
-        "pressure_difference": 100.0 * t, "voltage": VOLTAGE * t, "charge": 1e-8 * t,
+        "stretch": 1 + 0.2 * t,
+        "stretch_max": 1 + 0.3 * t,
+        "pressure_top": 40.0 * t,
+        "pressure_bottom": 140.0 * t,
+        "pressure_difference": 100.0 * t,
+        "voltage": VOLTAGE * t,
+        "charge": 1e-8 * t,
     }
     return StepRecord(number, "lade auf", t, t, iterations, scalars, 0.25)
 
@@ -206,8 +217,12 @@ def record(number: int, of: int) -> StepRecord:
 def solution(steps: Sequence[StepRecord], result: str = "CONVERGED") -> Any:
     """The face of a Solution."""
     return SimpleNamespace(
-        result=SimpleNamespace(name=result, advice="nothing to do"), message="the whole path is solved",
-        steps=tuple(steps), error=Estimate(), cost=Cost(), archive=None,
+        result=SimpleNamespace(name=result, advice="nothing to do"),
+        message="the whole path is solved",
+        steps=tuple(steps),
+        error=Estimate(),
+        cost=Cost(),
+        archive=None,
     )
 
 
@@ -221,15 +236,3 @@ def tell(listener: Listener, problem: Any, steps: int = 3, result: str = "CONVER
         listener.accepted(State(problem, one.factor_field), one)  # type: ignore[arg-type]
     listener.finished(solution(records, result))
     return records
-
-
-def area(block: Any) -> float:
-    """Length, area or volume of a block's cells, with straight sides between neighbouring nodes of order one."""
-    corners = block.points[block.cells[:, : {68: 2, 69: 3, 71: 4}[block.cell_type]]]
-    edges = corners[:, 1:] - corners[:, :1]
-    gram = np.einsum("cik,cjk->cij", edges, edges)
-    size = np.sqrt(np.linalg.det(gram)) / math.factorial(edges.shape[1])
-    return float(size.sum())
-
-
-__all__ = ["BND", "Norm", "Problem", "State", "area", "record", "solution", "tell"]

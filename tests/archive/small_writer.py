@@ -1,4 +1,5 @@
-"""A writer with small made-up steps whose every number is known, for tests that kill it: ``python small_writer.py FILE``."""
+"""A writer with small made-up steps whose every number is known, for tests that kill it: ``python
+small_writer.py FILE``."""
 
 from __future__ import annotations
 
@@ -37,8 +38,10 @@ def writer(path: Path) -> ArchiveWriter:
 
 def record(number: int) -> StepRecord:
     """The record of a step."""
-    iterations = tuple(Iteration(k, number + k, number - k, 7.0 * k, 9.0 * number) for k in range(number % 4 + 1))
-    return StepRecord(number, f"stage {number % 3}", number / 7, number / 5, iterations, {"stretch": number**2}, 0.5)
+    rows = range(number % 4 + 1)
+    iterations = tuple(Iteration(k, number + k, number - k, 7.0 * k, 9.0 * number) for k in rows)
+    stage, scalars = f"stage {number % 3}", {"stretch": float(number**2)}
+    return StepRecord(number, stage, number / 7, number / 5, iterations, scalars, 0.5)
 
 
 def fields(number: int) -> list[SampledField]:
@@ -66,7 +69,8 @@ def check(archive: Archive) -> int:
     assert archive.steps == tuple(record(number) for number in range(1, count + 1))
     for number in range(1, count + 1):
         for field in fields(number):
-            np.testing.assert_array_equal(archive.block(field.block).field(field.name, number - 1), field.values)
+            found = archive.block(field.block).field(field.name, number - 1)
+            np.testing.assert_array_equal(found, field.values)
     if count:
         for name, vector in archive.checkpoint().items():
             np.testing.assert_array_equal(vector, vectors(count)[name])

@@ -102,7 +102,8 @@ class Taped:
 
 
 def test_killed_after_every_single_write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The writes of five commits are logged, and every beginning of that log is a file that must be readable."""
+    """The writes of five commits are logged, and every beginning of that log is a file that must be
+    readable."""
     path = tmp_path / "run.vtkhdf"
     target = small_writer.writer(path)
     small_writer.write(target, 1)
@@ -122,7 +123,7 @@ def test_killed_after_every_single_write(tmp_path: Path, monkeypatch: pytest.Mon
         starts.append(len(log))
     target.finish({"result": {"name": "converged", "advice": "", "message": ""}})
     monkeypatch.undo()
-    monkeypatch.setattr(file, "PATIENCE", -1.0)  # the writer of these files is dead, there is nothing to wait for
+    monkeypatch.setattr(file, "PATIENCE", -1.0)  # the writer is dead: nothing to wait for
     crashed, content = tmp_path / "crashed.vtkhdf", io.BytesIO(first)
     copy = tmp_path / "copy.vtkhdf"
     counts = []
@@ -164,10 +165,13 @@ def test_a_start_that_is_killed_leaves_the_old_archive(
     assert path.read_bytes() == before
     small_writer.write(fresh, 1)  # and a later start takes over, with nothing left behind
     assert small_writer.check(open_archive(path)) == 1
-    assert sorted(one.name for one in tmp_path.iterdir()) == ["run.outside.vtkhdf", "run.shell.vtkhdf", "run.vtkhdf"]
+    names = sorted(one.name for one in tmp_path.iterdir())
+    assert names == ["run.outside.vtkhdf", "run.shell.vtkhdf", "run.vtkhdf"]
 
 
-def test_a_full_disk_is_told_and_keeps_what_is_committed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_full_disk_is_told_and_keeps_what_is_committed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     path = tmp_path / "run.vtkhdf"
     target = small_writer.writer(path)
     for number in (1, 2):
