@@ -30,7 +30,7 @@ from ngsolve import (
 )
 
 from embedding.geometry.domain import Domain
-from embedding.geometry.spaces import TraceSpace, as_bits, plane_mask, scalar_mask
+from embedding.geometry.spaces import as_bits, plane_mask, scalar_mask
 
 GUARD = 0.02
 MOST_SUBSTEPS = 64
@@ -40,11 +40,11 @@ NOTICEABLE = 1e-3
 class SideMotion:
     """The motion y + w of one ``side`` ("outside" or "inside"): face displacement ``y``, interior motion ``w``."""
 
-    def __init__(self, domain: Domain, side: str, face: TraceSpace) -> None:
+    def __init__(self, domain: Domain, side: str, face: Any) -> None:
         mesh, materials = domain.mesh, domain.materials(side)
         interior = VectorH1(mesh, order=1, definedon=mesh.Materials(materials))
-        self.y, self.w = GridFunction(face.space), GridFunction(interior)
-        self._settled = np.zeros(face.space.ndof)
+        self.y, self.w = GridFunction(face), GridFunction(interior)
+        self._settled = np.zeros(face.ndof)
         self._noticeable = NOTICEABLE * domain.sizes.shell
         trial = interior.TrialFunction()
         rule = {element: IntegrationRule(element, 2) for element in (ET.TET, ET.TRIG)}
@@ -71,9 +71,8 @@ class SideMotion:
         """Move the face to the displacement vector ``face``; False (and nothing moved) if elements would turn over."""
         saved = [vector.copy() for vector in self.vectors()]
         target = np.array(face.FV().NumPy())
-        if np.abs(target - self._settled).max(initial=0.0) <= self._noticeable:
-            if self._place(target):
-                return True
+        if np.abs(target - self._settled).max(initial=0.0) <= self._noticeable and self._place(target):
+            return True
         substeps = 1
         while substeps <= MOST_SUBSTEPS:
             self._restore(saved)

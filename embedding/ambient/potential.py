@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from ngsolve import BND, CF, GridFunction, H1, InnerProduct
+from ngsolve import BND, CF, H1, GridFunction, InnerProduct
 
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import Mask, TraceSpace, plane_mask, scalar_mask
@@ -69,7 +69,11 @@ class PotentialSpaces:
         order = domain.sizes.order
         self.electrodes = electrodes
         self.phi = H1(domain.mesh, order=order)
-        self.jump = TraceSpace(domain.mesh, order, vector=False) if electrodes.jump_exists else None
+        self.jump = (
+            TraceSpace(domain.mesh, order, vector=False, reach=domain.materials(electrodes.lifted))
+            if electrodes.jump_exists
+            else None
+        )
         self.on_shell: Mask = scalar_mask(self.phi, domain.shell)
         self.on_outer: Mask = scalar_mask(self.phi, domain.mesh.Boundaries("outer"))
         odd = np.zeros(self.phi.ndof, bool)
@@ -85,7 +89,11 @@ class PotentialSpaces:
     def _uniform(self, domain: Domain, applied: tuple[float, ...]) -> Any:
         """Potential of the applied field on the outer boundary of a box that is held at it."""
         field = GridFunction(self.phi)
-        field.Set(-InnerProduct(CF(applied), domain.reduction.position), BND, definedon=domain.mesh.Boundaries("outer"))
+        field.Set(
+            -InnerProduct(CF(applied), domain.reduction.position),
+            BND,
+            definedon=domain.mesh.Boundaries("outer"),
+        )
         return np.array(field.vec.FV().NumPy())[self.on_outer]
 
     @property
@@ -111,4 +119,5 @@ class PotentialSpaces:
 
     def constant_on_shell(self) -> Mask:
         """Unknowns of phi whose sum of residuals is minus the total charge on the shell."""
-        return self.on_shell & self._vertices
+        mask: Mask = self.on_shell & self._vertices
+        return mask

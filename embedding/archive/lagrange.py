@@ -93,9 +93,7 @@ class LagrangeBlock:
     ``order``. Raises ArchiveError if the region has no elements or other than simplicial ones.
     """
 
-    def __init__(
-        self, mesh: Any, region: Any, order: int, continuous: bool, embed: Callable[[Floats], Floats]
-    ) -> None:
+    def __init__(self, mesh: Any, region: Any, order: int, continuous: bool, embed: Callable[[Floats], Floats]) -> None:
         self.mesh, self.region, self.order = mesh, region, order
         codimension = {VOL: 0, BND: 1}.get(region.VB())
         if codimension is None:

@@ -39,12 +39,19 @@ FIELD_CHUNK = 1 << 16  # rows at most in one chunk of a field
 TABLE_CHUNK = 256
 STAGE = h5py.string_dtype("utf-8", 64)
 STEP_COLUMNS = {
-    "number": ("i8", "1"), "stage": (STAGE, "1"), "newton_end": ("i8", "1"), "wall_seconds": ("f8", "s"),
-    "factor_mechanical": ("f8", "1"), "factor_field": ("f8", "1"),
+    "number": ("i8", "1"),
+    "stage": (STAGE, "1"),
+    "newton_end": ("i8", "1"),
+    "wall_seconds": ("f8", "s"),
+    "factor_mechanical": ("f8", "1"),
+    "factor_field": ("f8", "1"),
 }
 NEWTON_COLUMNS = {
-    "number": ("i8", "1"), "update": ("f8", "1"), "residual": ("f8", "1"),
-    "pressure_top": ("f8", "Pa"), "pressure_bottom": ("f8", "Pa"),
+    "number": ("i8", "1"),
+    "update": ("f8", "1"),
+    "residual": ("f8", "1"),
+    "pressure_top": ("f8", "Pa"),
+    "pressure_bottom": ("f8", "Pa"),
 }
 SLOTS = ("even", "odd")
 KINDS = ("PointData", "CellData", "FieldData")

@@ -85,7 +85,8 @@ class Newton:
 
 
 UNFINISHED = ArchivedResult(
-    "unfinished", "the run was killed or is still at work; the steps committed so far can be used",
+    "unfinished",
+    "the run was killed or is still at work; the steps committed so far can be used",
     "the archive holds no end of the run",
 )
 

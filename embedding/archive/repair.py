@@ -77,7 +77,11 @@ class _Copy:
         blocks = {"newton": self.newton, "finish": self.finish}.get(group.name.split("/")[-1], self.committed)
         rows = min(blocks * block, len(old))  # the last step of a field is not padded
         new = group.create_dataset(
-            name, shape=(rows, *old.shape[1:]), maxshape=old.maxshape, chunks=old.chunks, dtype=old.dtype,
+            name,
+            shape=(rows, *old.shape[1:]),
+            maxshape=old.maxshape,
+            chunks=old.chunks,
+            dtype=old.dtype,
             fletcher32=old.fletcher32,
         )
         pace = max(block, 1 << 16)

@@ -4,12 +4,19 @@ cylinder."""
 from __future__ import annotations
 
 UNITS = {
-    "pressure_top": "Pa", "pressure_bottom": "Pa", "pressure_difference": "Pa", "min_principal_stress": "Pa",
+    "pressure_top": "Pa",
+    "pressure_bottom": "Pa",
+    "pressure_difference": "Pa",
+    "min_principal_stress": "Pa",
     "voltage": "V",
 }
 EXTENSIVE = {
-    "charge": "C", "field_energy": "J", "elastic_energy": "J",
-    "force_x": "N", "force_y": "N", "force_z": "N",
+    "charge": "C",
+    "field_energy": "J",
+    "elastic_energy": "J",
+    "force_x": "N",
+    "force_y": "N",
+    "force_z": "N",
 }
 
 

@@ -145,8 +145,11 @@ class ArchiveWriter:
         for name in layout.NEWTON_COLUMNS:
             layout.put(own["newton"][name], begin, [getattr(one, name) for one in record.iterations])
         row = {
-            "number": record.number, "stage": _short(record.stage), "wall_seconds": record.wall_seconds,
-            "factor_mechanical": record.factor_mechanical, "factor_field": record.factor_field,
+            "number": record.number,
+            "stage": _short(record.stage),
+            "wall_seconds": record.wall_seconds,
+            "factor_mechanical": record.factor_mechanical,
+            "factor_field": record.factor_field,
             "newton_end": begin + len(record.iterations),
         }
         for name in layout.STEP_COLUMNS:
@@ -219,7 +222,9 @@ def _to_disk(path: str | os.PathLike[str]) -> None:
 
 def _scalars(record: StepRecord) -> dict[str, float]:
     return {
-        **record.scalars, "factor_mechanical": record.factor_mechanical, "factor_field": record.factor_field,
+        **record.scalars,
+        "factor_mechanical": record.factor_mechanical,
+        "factor_field": record.factor_field,
     }
 
 

@@ -49,6 +49,4 @@ def check_pictures(option: str) -> None:
     """
     missing = [name for name in ("pyvista", "matplotlib") if importlib.util.find_spec(name) is None]
     if missing:
-        raise UsageError(
-            f"{option}: pictures need {' and '.join(missing)}: pip install 'embedding[pictures]'"
-        )
+        raise UsageError(f"{option}: pictures need {' and '.join(missing)}: pip install 'embedding[pictures]'")

@@ -43,9 +43,7 @@ class ProgressDisplay(Listener):
 
     def __enter__(self) -> Self:
         if self.console.is_terminal:
-            self.live = Live(
-                get_renderable=self.panel, console=self.console, refresh_per_second=5, transient=True
-            )
+            self.live = Live(get_renderable=self.panel, console=self.console, refresh_per_second=5, transient=True)
             self.live.start()
         return self
 
@@ -71,9 +69,7 @@ class ProgressDisplay(Listener):
 
     def iterated(self, step_number: int, target: dict[str, float], iteration: Iteration) -> None:
         """Keep the Newton history of the present step."""
-        if step_number != self.step_number or iteration.number <= (
-            self.newton[-1].number if self.newton else -1
-        ):
+        if step_number != self.step_number or iteration.number <= (self.newton[-1].number if self.newton else -1):
             self.newton = []
         self.step_number, self.target = step_number, dict(target)
         self.newton.append(iteration)
@@ -113,9 +109,7 @@ class ProgressDisplay(Listener):
             parts.append(Text(f"step {self.step_number}, {self._stage()}: {self._load()}"))
             parts.append(self._history())
         if self.last is not None:
-            parts.append(
-                Text(f"last accepted: step {self.last.number}{self._stretch(self.last)}", style="dim")
-            )
+            parts.append(Text(f"last accepted: step {self.last.number}{self._stretch(self.last)}", style="dim"))
         if self.note:
             parts.append(Text(self.note, style="yellow"))
         return Group(*parts)

@@ -25,6 +25,10 @@ from embedding.geometry.domain import Domain
 from embedding.shell.kinematics import Kinematics, surface_gradient
 from embedding.shell.loads import dead_load_energy, enclosed_volume, follower_residual
 
+ANCHOR = 1e-6
+"""Stiffness, relative to the shell's, that ties each face to where it is. It changes no residual, only the matrix:
+where there is no field a face would have a zero on the diagonal, and elimination without pivoting cannot have that."""
+
 
 class Factors:
     """The load parameters of a form: strength of the mechanical loads and of the field, and the target volume."""
@@ -39,7 +43,12 @@ class Lagrangian:
     """Builds the forms of a coupled problem on ``unknowns``; symmetric unless a load has no potential."""
 
     def __init__(
-        self, domain: Domain, physics: Physics, unknowns: Unknowns, motions: dict[str, SideMotion], factors: Factors
+        self,
+        domain: Domain,
+        physics: Physics,
+        unknowns: Unknowns,
+        motions: dict[str, SideMotion],
+        factors: Factors,
     ) -> None:
         self.domain, self.physics, self.unknowns = domain, physics, unknowns
         self.motions, self.factors = motions, factors
@@ -71,7 +80,9 @@ class Lagrangian:
         moved, slope = values[face] + w, Grad(values[face]) + Grad(w)
         gradient = self.side_potential_gradient(side, values)
         near = domain.near(side)
-        terms = [field_energy(domain.reduction, moved, slope, gradient, self.physics.axial_stretch) * domain.volume(near)]
+        terms = [
+            field_energy(domain.reduction, moved, slope, gradient, self.physics.axial_stretch) * domain.volume(near)
+        ]
         if near != domain.materials(side):
             far = field_energy(domain.reduction, w, Grad(w), Grad(values["phi"]), self.physics.axial_stretch)
             terms.append(far * domain.volume(side))
@@ -86,7 +97,8 @@ class Lagrangian:
         if not field.grounded:
             applied = self.factors.field * CF(field.applied)
             terms.append(
-                far_field_energy(domain.reduction, values["phi"], applied, domain.sizes.radius) * domain.surface("outer")
+                far_field_energy(domain.reduction, values["phi"], applied, domain.sizes.radius)
+                * domain.surface("outer")
             )
         if field.contrast is not None and "jump" in values:
             terms.append(self._inside_shell(values, field.contrast) * self.domain.surface())
@@ -127,22 +139,32 @@ class Lagrangian:
         physics, measure = self.physics, self.measure
         kinematics = self.kinematics(values)
         u = _trace(values["u"])
-        terms = [self.elastic_energy(values) * self.domain.surface()]
+        terms: list[Any] = []
+        surface = self.domain.surface()
+        shell = self._elastic(kinematics)
+        if self.unknowns.opened:
+            # One compiled expression for everything that is nonlinear in u: they share the kinematics.
+            couple = _trace(values["tau_t"]) - _trace(values["tau_b"])
+            shell = shell + measure * InnerProduct(couple, physics.thickness / 2 * kinematics.director)
+            for name in ("t", "b"):
+                gap = u - _trace(values[f"y_{name}"])
+                shift = _trace(values[f"y_{name}"]) - self.unknowns.field(f"y_{name}")
+                anchor = -0.5 * ANCHOR * physics.thickness * InnerProduct(shift, shift)
+                terms.append(measure * (InnerProduct(_trace(values[f"tau_{name}"]), gap) + anchor) * surface)
+        terms.append(shell * surface)
         terms += dead_load_energy(self.domain, physics.loads, physics.thickness, u, self.factors.mechanical)
         if self.pressure_has_potential:
             terms.append(measure * self._pressure_energy(kinematics, u, values.get("pressure")) * self.domain.surface())
         for i, motion in enumerate(self.unknowns.rigid):
             terms.append(measure * values[f"rigid{i}"] * InnerProduct(motion, u) * self.domain.surface())
-        if self.unknowns.opened:
-            half = physics.thickness / 2
-            for name, offset in (("t", half), ("b", -half)):
-                gap = u + offset * kinematics.director - _trace(values[f"y_{name}"])
-                terms.append(measure * InnerProduct(_trace(values[f"tau_{name}"]), gap) * self.domain.surface())
         return terms
 
     def elastic_energy(self, values: dict[str, Any]) -> Any:
         """T Psi times the measure: elastic energy per reference area."""
-        return self.measure * self.physics.thickness * self.physics.law.energy(self.kinematics(values))
+        return self._elastic(self.kinematics(values))
+
+    def _elastic(self, kinematics: Kinematics) -> Any:
+        return self.measure * self.physics.thickness * self.physics.law.energy(kinematics)
 
     @property
     def pressure_has_potential(self) -> bool:

@@ -11,7 +11,7 @@ from embedding.shell.loads import MechanicalLoads
 
 @dataclass(frozen=True)
 class FieldPhysics:
-    """The field: electrodes, the shell's relative permittivity (None between electrodes at one potential), surroundings.
+    """The field: electrodes, the shell's relative permittivity (None: not needed), surroundings.
 
     ``applied`` is the applied field (mesh components), ``odd_planes`` the mirror planes on which the potential is 0.
     """

@@ -9,7 +9,7 @@ from ngsolve import BND, BilinearForm, FESpace, GridFunction, InnerProduct, Vari
 
 from embedding.ambient.motion import SideMotion
 from embedding.coupling.lagrangian import Factors, Lagrangian
-from embedding.coupling.linear import solve_linear
+from embedding.coupling.linear import DirectSolver
 from embedding.coupling.physics import Physics
 from embedding.coupling.tractions import FaceTractions
 from embedding.coupling.unknowns import SIDES, Unknowns
@@ -28,7 +28,7 @@ class System:
         self.factors = Factors()
         self.unknowns = Unknowns(domain, physics)
         self.motions = {
-            side: SideMotion(domain, side, self.unknowns.trace) for side in SIDES.values() if physics.field is not None
+            SIDES[face]: SideMotion(domain, SIDES[face], space) for face, space in self.unknowns.face_spaces.items()
         }
         self.lagrangian = Lagrangian(domain, physics, self.unknowns, self.motions, self.factors)
         self.form = self.lagrangian.joint_form()
@@ -38,7 +38,7 @@ class System:
             self.unknowns.field("axial").vec[0] = 1.0
         self.place_faces()
         self._held: tuple[str, ...] = ()
-        self._free = self.unknowns.free()
+        self._solver = DirectSolver(self.unknowns.free(), symmetric=self.symmetric)
         self._residual = self.unknowns.state.vec.CreateVector()
 
     def place_faces(self) -> None:
@@ -68,14 +68,15 @@ class System:
             else:
                 self.factors.volume.Set(volume)
         if held != self._held:
-            self._held, self._free = held, self.unknowns.free(held)
+            self._held = held
+            self._solver = DirectSolver(self.unknowns.free(held), symmetric=self.symmetric)
         if self.potential is not None:
             self.potential.prescribe(field)
 
     @property
     def free_count(self) -> int:
         """Number of free unknowns of the joint system."""
-        return int(self._free.NumSet())
+        return int(self._solver.mask.sum())
 
     def follow(self) -> bool:
         """Let the ambient's mesh follow the faces; False if elements would turn over."""
@@ -90,9 +91,9 @@ class System:
         vector = self.unknowns.state.vec
         self.form.Apply(vector, self._residual)
         self.form.AssembleLinearization(vector)
-        step = solve_linear(self.form.mat, self._residual, self._free, symmetric=self.symmetric)
+        step = self._solver.solve(self.form.mat, self._residual)
         step *= -1.0
-        mask = np.fromiter((self._free[i] for i in range(len(self._free))), bool, len(self._free))
+        mask = self._solver.mask
         work = float(np.dot(self._residual.FV().NumPy()[mask], step.FV().NumPy()[mask]))
         size = self.physics.thickness * self.domain.shell_integral(1.0)
         return step, float(np.sqrt(abs(work) / size))
@@ -143,7 +144,7 @@ class PotentialSolve:
         self.form = BilinearForm(space, symmetric=True)
         for term in lagrangian.field_energies(values):
             self.form += Variation(term).Compile()
-        self._free = as_bits(self._spaces.free)
+        self._solver = DirectSolver(as_bits(self._spaces.free), symmetric=True)
         self._space = space
 
     def prescribe(self, factor: float) -> None:
@@ -169,7 +170,7 @@ class PotentialSolve:
         residual = state.vec.CreateVector()
         self.form.Apply(state.vec, residual)
         self.form.AssembleLinearization(state.vec)
-        state.vec.data -= solve_linear(self.form.mat, residual, self._free, symmetric=True)
+        state.vec.data -= self._solver.solve(self.form.mat, residual)
         for name, component in zip(self._names, state.components, strict=True):
             self._unknowns.field(name).vec.data = component.vec
 

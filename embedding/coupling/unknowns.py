@@ -38,12 +38,18 @@ class Unknowns:
         self.faces = FACES if physics.field is not None else ()
         self.opened = physics.opened and physics.field is not None
         self.potential = _potential(domain, physics)
-        self.trace = _displacement(domain, physics.supports)
+        self.trace = _displacement(domain, physics.supports, "shell" if self.opened else "")
+        self.face_spaces = {
+            face: self.trace.reaching(domain.materials(SIDES[face])) if self.opened else self.trace.space
+            for face in self.faces
+        }
         self._parts: dict[str, tuple[Any, Mask]] = {"u": (self.trace.space, self.trace.free)}
         if self.opened:
             for face in self.faces:
-                self._parts[f"y_{face}"] = (self.trace.space, self.trace.free)
-                self._parts[f"tau_{face}"] = (self.trace.space, self.trace.free)
+                self._parts[f"y_{face}"] = (self.face_spaces[face], self.trace.free)
+                # tau needs no reach of its own; it shares y's so that the two are neighbours of the same unknowns and
+                # elimination without pivoting takes y first: tau alone has a zero on the diagonal.
+                self._parts[f"tau_{face}"] = (self.face_spaces[face], self.trace.free)
         if self.potential is not None:
             masks = [self.potential.free_phi] + ([self.potential.jump.free] if self.potential.jump else [])
             for name, space, mask in zip(("phi", "jump"), self.potential.spaces, masks, strict=False):
@@ -89,9 +95,9 @@ def _potential(domain: Domain, physics: Physics) -> PotentialSpaces | None:
     return PotentialSpaces(domain, field.electrodes, field.grounded, field.applied, field.odd_planes)
 
 
-def _displacement(domain: Domain, supports: tuple[tuple[str, int], ...]) -> TraceSpace:
+def _displacement(domain: Domain, supports: tuple[tuple[str, int], ...], reach: str) -> TraceSpace:
     """Displacement space of the mid-surface with symmetry, axis and supports held."""
-    trace = TraceSpace(domain.mesh, domain.sizes.order)
+    trace = TraceSpace(domain.mesh, domain.sizes.order, reach=reach)
     for axis in symmetry_components(domain):
         trace.fix(axis, plane_mask(trace.scalar, axis))
     for where, component in supports:

@@ -134,7 +134,9 @@ class Domain:
         pattern = "|".join(names)
         if self.mesh.dim == 2:
             hats = GridFunction(H1(self.mesh, order=1))
-            for dof in np.flatnonzero([hats.space.GetDofs(self.mesh.BBoundaries(pattern))[i] for i in range(self.mesh.nv)]):
+            for dof in np.flatnonzero(
+                [hats.space.GetDofs(self.mesh.BBoundaries(pattern))[i] for i in range(self.mesh.nv)]
+            ):
                 hats.vec[int(dof)] = 1.0
             return hats
         facets = GridFunction(FacetSurface(self.mesh, order=0, definedon=self.shell))

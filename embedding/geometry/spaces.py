@@ -54,17 +54,31 @@ def plane_mask(space: Any, axis: int) -> Mask:
 
 
 class TraceSpace:
-    """``VectorH1`` (or ``H1``) restricted to the unknowns on the shell, with its own book of fixed components."""
+    """``VectorH1`` (or ``H1``) restricted to the unknowns on the shell, with its own book of fixed components.
 
-    def __init__(self, mesh: Mesh, order: int, *, vector: bool = True) -> None:
+    ``reach`` limits where the basis functions live besides the shell: "" in all elements that touch it, "shell"
+    nowhere else, or a pattern of materials. Element matrices hold only unknowns that can matter there. The numbering
+    of the unknowns does not depend on the reach, so vectors can be copied between such spaces.
+    """
+
+    def __init__(self, mesh: Mesh, order: int, *, vector: bool = True, reach: str = "") -> None:
         self.scalar = H1(mesh, order=order)
         self.components = mesh.dim if vector else 1
-        full = VectorH1(mesh, order=order) if vector else self.scalar
         self._on_shell = scalar_mask(self.scalar, mesh.Boundaries("shell"))
-        self.space = Compress(full, as_bits(np.tile(self._on_shell, self.components)))
         self._fixed = np.zeros((self.components, self.scalar.ndof), bool)
-        if self.space.ndof != self.components * int(self._on_shell.sum()):
+        self.space = self.reaching(reach)
+
+    def reaching(self, reach: str) -> Any:
+        """The same space of shell unknowns with another reach."""
+        mesh, order = self.scalar.mesh, self.scalar.globalorder
+        limits = {"": {}, "shell": {"definedon": mesh.Boundaries("shell")}}
+        limit = limits.get(reach, {"definedon": mesh.Materials(reach)})
+        active = np.tile(scalar_mask(H1(mesh, order=order, **limit), mesh.Boundaries("shell")), self.components)
+        full = H1(mesh, order=order, **limit) if self.components == 1 else VectorH1(mesh, order=order, **limit)
+        space = Compress(full, as_bits(active))
+        if space.ndof != self.components * int(self._on_shell.sum()):
             raise RuntimeError("the trace space lost unknowns: component blocks are not where they were expected")
+        return space
 
     def fix(self, component: int, mask: Mask) -> None:
         """Hold ``component`` on the unknowns of ``mask`` (length: unknowns of the scalar space)."""

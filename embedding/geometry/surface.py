@@ -89,8 +89,9 @@ def _on_plane(edge: Edge, planes: tuple[str, ...]) -> str | None:
 def _surface(face: Any, name: Callable[[Edge], str] | None, size: float) -> Mesh:
     face.faces.name = "shell"
     # A sphere has degenerate edges at its poles, which must not be asked for their place: it is never named.
-    for edge in face.edges if name else ():
-        edge.name = name(edge)
+    if name is not None:
+        for edge in face.edges:
+            edge.name = name(edge)
     mesh = OCCGeometry(face).GenerateMesh(maxh=size, perfstepsend=MeshingStep.MESHSURFACE)
     return Mesh(mesh)
 
@@ -101,5 +102,3 @@ def _curve(edges: list[Edge], name: Callable[[Pnt], str], size: float) -> Mesh:
     for vertex in wire.vertices:
         vertex.name = name(vertex.p)
     return Mesh(OCCGeometry(wire, dim=2).GenerateMesh(maxh=size))
-
-

@@ -22,7 +22,13 @@ from embedding.geometry.surface import positive_box
 def sphere_in_ball(reduction: Reduction, radius: float, shell_size: float, far_size: float, grading: float) -> Mesh:
     """Unit sphere inside a concentric ball of ``radius``: 3D (between mirror planes) or a meridian half plane."""
     if reduction.name == "axisymmetric":
-        return _planar(radius, MoveTo(0, -2 * radius).Rectangle(2 * radius, 4 * radius).Face(), shell_size, far_size, grading)
+        return _planar(
+            radius,
+            MoveTo(0, -2 * radius).Rectangle(2 * radius, 4 * radius).Face(),
+            shell_size,
+            far_size,
+            grading,
+        )
     box = positive_box(reduction.planes, 2 * radius)
     ball = SphereSolid(Pnt(0, 0, 0), 1.0) * box
     air = (SphereSolid(Pnt(0, 0, 0), radius) * box) - ball
@@ -76,13 +82,13 @@ def _with_near_layer(mesh: netgen.Mesh) -> Mesh:
     near = {i: len(names) + i for i in names}
     for i, name in names.items():
         mesh.SetMaterial(near[i], f"{name}_near")
-    shell_faces = [k + 1 for k, f in enumerate(mesh.FaceDescriptors()) if f.bcname == "shell"]
+    shell_faces = [k + 1 for k, face in enumerate(mesh.FaceDescriptors()) if face.bcname == "shell"]
     triangles = mesh.Elements2D().NumPy()
     on_shell = np.zeros(len(mesh.Points()) + 1, bool)
     on_shell[triangles["nodes"][np.isin(triangles["index"], shell_faces), :3]] = True
     elements = mesh.Elements3D()
     touching = on_shell[elements.NumPy()["nodes"][:, :4]].any(axis=1)
-    for i in np.flatnonzero(touching):
-        element = elements[int(i)]
+    for number in np.flatnonzero(touching):
+        element = elements[int(number)]
         element.index = near[element.index]
     return Mesh(mesh)

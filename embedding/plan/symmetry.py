@@ -56,8 +56,8 @@ def _mirrored(scene: Scene, axis: int) -> bool:
 
 def _even(field: PressureField, points: tuple[tuple[float, float, float], ...], axis: int) -> bool:
     for point in points:
-        image = tuple(-c if i == axis else c for i, c in enumerate(point))
-        here, there = float(field(*point)), float(field(*image))
+        x, y, z = (-c if i == axis else c for i, c in enumerate(point))
+        here, there = float(field(*point)), float(field(x, y, z))
         if abs(here - there) > 1e-9 * max(abs(here), abs(there)):
             return False
     return True

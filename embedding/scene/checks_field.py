@@ -58,9 +58,7 @@ def _permittivity(scene: Scene) -> Iterator[Problem]:
     if len(electrodes) == 1:
         bare = "bottom" if "top" in electrodes else "top"
         reason = "without shell.relative_permittivity both faces must be electrodes at the same voltage"
-        yield Problem(
-            f"faces.{bare}", f"missing voltage: {reason}; give the voltage here, or the permittivity"
-        )
+        yield Problem(f"faces.{bare}", f"missing voltage: {reason}; give the voltage here, or the permittivity")
     elif not electrodes:
         reason = 'needed when ambient.field is "electric" and no face is an electrode'
         yield Problem("shell.relative_permittivity", f"missing: {reason}")

@@ -11,9 +11,7 @@ from typing import Any
 from embedding.errors import Problem, SceneError
 
 
-def apply_overrides(
-    table: Mapping[str, Any], overrides: Sequence[str], source: str | None = None
-) -> dict[str, Any]:
+def apply_overrides(table: Mapping[str, Any], overrides: Sequence[str], source: str | None = None) -> dict[str, Any]:
     """A changed copy of ``table``; list entries count from 0, and the number after the last adds one.
 
     Whether the keys exist and the values fit is seen when the scene is built from the result.

@@ -55,9 +55,7 @@ def _invariant(pressure: PressureField, size: float) -> bool:
     for radius, height in _RINGS:
         try:
             values = [
-                float(
-                    pressure(radius * size * math.cos(angle), radius * size * math.sin(angle), height * size)
-                )
+                float(pressure(radius * size * math.cos(angle), radius * size * math.sin(angle), height * size))
                 for angle in _ANGLES
             ]
         except (ArithmeticError, ValueError, TypeError):

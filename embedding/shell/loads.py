@@ -16,7 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from ngsolve import BND, CF, Cross, GridFunction, H1, InnerProduct, Parameter, ds, dx, specialcf, x
+from ngsolve import BND, CF, H1, Cross, GridFunction, InnerProduct, Parameter, ds, dx, specialcf, x
 
 from embedding.geometry.domain import Domain
 from embedding.shell.kinematics import Kinematics, surface_gradient
@@ -75,7 +75,12 @@ def enclosed_volume(domain: Domain, kinematics: Kinematics, u: Any) -> Any:
 
 
 def follower_residual(
-    domain: Domain, loads: MechanicalLoads, thickness: float, kinematics: Kinematics, v: Any, factor: Parameter
+    domain: Domain,
+    loads: MechanicalLoads,
+    thickness: float,
+    kinematics: Kinematics,
+    v: Any,
+    factor: Parameter,
 ) -> list[Any]:
     """Residual of the face pressures as integrals of trial and test functions; not symmetric in general.
 

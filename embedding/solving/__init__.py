@@ -5,4 +5,14 @@ from embedding.solving.events import Field, Iteration, Listener, StepRecord
 from embedding.solving.result import Result
 from embedding.solving.solution import Cost, ErrorEstimate, Solution
 
-__all__ = ["Cost", "ErrorEstimate", "Field", "Iteration", "Listener", "Result", "Solution", "StepRecord", "run"]
+__all__ = [
+    "Cost",
+    "ErrorEstimate",
+    "Field",
+    "Iteration",
+    "Listener",
+    "Result",
+    "Solution",
+    "StepRecord",
+    "run",
+]

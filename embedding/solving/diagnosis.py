@@ -41,8 +41,8 @@ def diagnose(problem: Problem, reason: Result, here: Target, towards: Target, us
     state = State(problem)
     shear = problem.scales.stress
     compressed = state.scalars()["min_principal_stress"] < COMPRESSION * shear
-    if towards.volume is None and usual_rate > 0:
-        if response_rate(problem, here, towards) > STEEP * usual_rate:
-            moving_field = towards.field != here.field
-            return Result.PULL_IN if moving_field else Result.LIMIT_POINT
+    controlled = towards.volume is None and usual_rate > 0
+    if controlled and response_rate(problem, here, towards) > STEEP * usual_rate:
+        moving_field = towards.field != here.field
+        return Result.PULL_IN if moving_field else Result.LIMIT_POINT
     return Result.COMPRESSIVE_MEMBRANE if compressed else reason

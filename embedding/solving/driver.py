@@ -42,9 +42,7 @@ class Run:
         self.problem = Problem(scene, explain(scene))
         self.state = State(self.problem)
         options = scene.solver
-        self.newton = Newton(
-            self.problem.system, options.tolerance, options.max_iterations, self.state.mean_pressures
-        )
+        self.newton = Newton(self.problem.system, options.tolerance, options.max_iterations, self.state.mean_pressures)
         self.steps: list[StepRecord] = []
         self.at = Target(0.0, 0.0, None, self._start_pressure)
 
@@ -72,9 +70,7 @@ class Run:
         except KeyboardInterrupt:
             result, message, error = Result.INTERRUPTED, self._told(Result.INTERRUPTED), None
         plan, scales = self.problem.plan, self.problem.scales
-        solution = Solution(
-            self.scene, plan, scales, result, message, tuple(self.steps), error, self._cost()
-        )
+        solution = Solution(self.scene, plan, scales, result, message, tuple(self.steps), error, self._cost())
         for listener in self.listeners:
             listener.finished(solution)
         return solution

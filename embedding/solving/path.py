@@ -77,5 +77,3 @@ class Stepper:
     def relative_length(self) -> float:
         """Present step as a part of the planned one."""
         return self._length / self._planned
-
-

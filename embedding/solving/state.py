@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from ngsolve import CF, Cof, Det, Grad, Id, IfPos, InnerProduct, sqrt, x
+from ngsolve import CF, ET, Cof, Det, Grad, Id, IfPos, InnerProduct, IntegrationRule, sqrt, x
 
 from embedding.coupling.unknowns import SIDES
 from embedding.shell.kinematics import Kinematics
@@ -175,8 +175,6 @@ class State:
         }
 
     def _sample(self, values: Any) -> Any:
-        from ngsolve import ET, IntegrationRule
-
         rule = IntegrationRule(ET.TRIG if self._domain.mesh.dim == 3 else ET.SEGM, 2 * self._domain.sizes.order)
         return np.asarray(values(self._domain.mesh.MapToAllElements(rule, self._domain.shell)))
 
@@ -195,15 +193,14 @@ class State:
         potential = self._system.potential
         if potential is None:
             return {}
-        scales, field = self._scales, self._system.factors.field.Get()
-        base = self._system.physics.field
-        voltage = base.electrodes.base if base is not None and base.electrodes.base is not None else 0.0
-        named = {
-            "voltage": scales.potential * field * voltage,
-            "charge": scales.flux_density * scales.length ** (self._lengths - 1) * potential.charge(),
-            "field_energy": energy * potential.energy(),
-            "min_jacobian": self._system.min_jacobian,
-        }
+        scales, physics = self._scales, self._system.physics.field
+        named = {"min_jacobian": self._system.min_jacobian}
+        if physics is not None and physics.electrodes.base is not None:
+            strength = self._system.factors.field.Get()
+            named["voltage"] = scales.potential * strength * physics.electrodes.base
+            named["charge"] = scales.flux_density * scales.length ** (self._lengths - 1) * potential.charge()
+        if physics is not None and not any(physics.applied):
+            named["field_energy"] = energy * potential.energy()
         force = scales.stress * scales.length ** (self._lengths - 1)
         totals = np.sum([traction.force() for traction in self._system.tractions.values()], axis=0)
         for axis, total in zip(self._domain.reduction.axes, totals, strict=True):
