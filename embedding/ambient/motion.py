@@ -34,7 +34,11 @@ from embedding.geometry.spaces import as_bits, plane_mask, scalar_mask
 
 GUARD = 0.02
 MOST_SUBSTEPS = 64
+COMFORTABLE = 0.3
 NOTICEABLE = 1e-3
+OUTDATED = 0.15
+"""Guard on det F; above ``COMFORTABLE`` an older matrix of the extension is good enough, until the face has moved by
+``OUTDATED`` (shell sizes); a face that moved less than ``NOTICEABLE`` (mesh sizes) does not disturb the interior."""
 
 
 class SideMotion:
@@ -45,6 +49,8 @@ class SideMotion:
         interior = VectorH1(mesh, order=1, definedon=mesh.Materials(materials))
         self.y, self.w = GridFunction(face), GridFunction(interior)
         self._settled = np.zeros(face.ndof)
+        self._assembled_at = np.zeros(face.ndof)
+        self._inverse: Any = None
         self._noticeable = NOTICEABLE * domain.sizes.shell
         trial = interior.TrialFunction()
         rule = {element: IntegrationRule(element, 2) for element in (ET.TET, ET.TRIG)}
@@ -95,15 +101,25 @@ class SideMotion:
         return self.min_jacobian > GUARD
 
     def _settle(self, face: Any) -> bool:
-        """Move the face, then let the interior take one Newton step on its energy."""
+        """Move the face, then let the interior take one Newton step on its energy, with an older matrix if it serves."""
         if not self._place(face):
             return False
-        vector = self.w.vec
-        residual = vector.CreateVector()
-        self._form.Apply(vector, residual)
-        self._form.AssembleLinearization(vector)
-        vector.data -= self._form.mat.Inverse(self._free, inverse="sparsecholesky") * residual
-        return bool(np.all(np.isfinite(vector.FV().NumPy()))) and self.min_jacobian > GUARD
+        before = self.w.vec.FV().NumPy().copy()
+        if self._inverse is not None and np.abs(face - self._assembled_at).max(initial=0.0) < OUTDATED:
+            self._relax()
+            if self.min_jacobian > COMFORTABLE:
+                return True
+            self.w.vec.FV().NumPy()[:] = before
+        self._form.AssembleLinearization(self.w.vec)
+        self._inverse = self._form.mat.Inverse(self._free, inverse="sparsecholesky")
+        self._assembled_at = face.copy()
+        self._relax()
+        return bool(np.all(np.isfinite(self.w.vec.FV().NumPy()))) and self.min_jacobian > GUARD
+
+    def _relax(self) -> None:
+        residual = self.w.vec.CreateVector()
+        self._form.Apply(self.w.vec, residual)
+        self.w.vec.data -= self._inverse * residual
 
 
 def _parts(domain: Domain, side: str) -> list[tuple[str, int]]:

@@ -131,7 +131,7 @@ class Lagrangian:
         if self.physics.field is not None:
             for term in self.field_energies(trial):
                 form += Variation(-1 * term).Compile()
-        for term in residuals:
+        for term in [*self._openings(), *residuals]:
             form += term.Compile()
         return form
 
@@ -146,17 +146,29 @@ class Lagrangian:
             # One compiled expression for everything that is nonlinear in u: they share the kinematics.
             couple = _trace(values["tau_t"]) - _trace(values["tau_b"])
             shell = shell + measure * InnerProduct(couple, physics.thickness / 2 * kinematics.director)
-            for name in ("t", "b"):
-                gap = u - _trace(values[f"y_{name}"])
-                shift = _trace(values[f"y_{name}"]) - self.unknowns.field(f"y_{name}")
-                anchor = -0.5 * ANCHOR * physics.thickness * InnerProduct(shift, shift)
-                terms.append(measure * (InnerProduct(_trace(values[f"tau_{name}"]), gap) + anchor) * surface)
         terms.append(shell * surface)
         terms += dead_load_energy(self.domain, physics.loads, physics.thickness, u, self.factors.mechanical)
         if self.pressure_has_potential:
             terms.append(measure * self._pressure_energy(kinematics, u, values.get("pressure")) * self.domain.surface())
         for i, motion in enumerate(self.unknowns.rigid):
             terms.append(measure * values[f"rigid{i}"] * InnerProduct(motion, u) * self.domain.surface())
+        return terms
+
+    def _openings(self) -> list[Any]:
+        """The part of the faces' terms that is linear in the unknowns, with the anchors, as a bilinear form.
+
+        The gap u - y is paired with tau both ways; written out it is assembled several times faster than by
+        differentiating an energy. What is nonlinear, the director, is among the shell's energies.
+        """
+        trial = {name: _trace(value) for name, value in self.unknowns.trial.items()}
+        test = {name: _trace(value) for name, value in self.unknowns.test.items()}
+        terms = []
+        for y, tau in (("y_t", "tau_t"), ("y_b", "tau_b")) if self.unknowns.opened else ():
+            pairing = InnerProduct(trial[tau], test["u"] - test[y]) + InnerProduct(test[tau], trial["u"] - trial[y])
+            for name, strength in ((tau, ANCHOR), (y, -ANCHOR)):
+                shift = trial[name] - self.unknowns.field(name)
+                pairing = pairing + strength * InnerProduct(shift, test[name])
+            terms.append(self.measure * pairing * self.domain.surface())
         return terms
 
     def elastic_energy(self, values: dict[str, Any]) -> Any:

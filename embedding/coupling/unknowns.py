@@ -47,9 +47,7 @@ class Unknowns:
         if self.opened:
             for face in self.faces:
                 self._parts[f"y_{face}"] = (self.face_spaces[face], self.trace.free)
-                # tau needs no reach of its own; it shares y's so that the two are neighbours of the same unknowns and
-                # elimination without pivoting takes y first: tau alone has a zero on the diagonal.
-                self._parts[f"tau_{face}"] = (self.face_spaces[face], self.trace.free)
+                self._parts[f"tau_{face}"] = (self.trace.space, self.trace.free)
         if self.potential is not None:
             masks = [self.potential.free_phi] + ([self.potential.jump.free] if self.potential.jump else [])
             for name, space, mask in zip(("phi", "jump"), self.potential.spaces, masks, strict=False):

@@ -43,6 +43,14 @@ def diagnose(problem: Problem, reason: Result, here: Target, towards: Target, us
     compressed = state.scalars()["min_principal_stress"] < COMPRESSION * shear
     controlled = towards.volume is None and usual_rate > 0
     if controlled and response_rate(problem, here, towards) > STEEP * usual_rate:
-        moving_field = towards.field != here.field
+        moving_field = _has_sources(problem) and towards.field != here.field
         return Result.PULL_IN if moving_field else Result.LIMIT_POINT
     return Result.COMPRESSIVE_MEMBRANE if compressed else reason
+
+
+def _has_sources(problem: Problem) -> bool:
+    """Is there a field at all: an electrode at a voltage, or an applied field?"""
+    field = problem.system.physics.field
+    if field is None:
+        return False
+    return any((field.electrodes.top, field.electrodes.bottom, *field.applied))
