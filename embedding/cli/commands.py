@@ -8,7 +8,7 @@ from typing import Annotated
 from cyclopts import App, Parameter
 
 from embedding import __version__
-from embedding.cli.files import check_output, check_pictures, default_archive
+from embedding.cli.files import UsageError, check_output, default_archive, whole_file
 from embedding.cli.output import print_json, print_solution, solution_summary
 
 app = App(
@@ -49,20 +49,23 @@ def run(
     stated = load_scene(scene, overrides)
     archive = check_output("--out", default_archive(stated.name) if out is None else out, ".vtkhdf")
     if picture is not None:
-        check_pictures("--picture")
+        from embedding.view.rendering import require_rendering
+
         check_output("--picture", picture, ".png")
+        require_rendering()
 
     from embedding.api import solve
 
     solution = solve(stated, archive=archive, progress=progress)
     if picture is not None:
-        pass
+        from embedding import view
+
+        with whole_file(picture) as file:
+            view.picture(archive, file)
     if as_json:
         print_json({**solution_summary(solution), "picture": picture})
     else:
-        print_solution(solution)
-        if picture is not None:
-            print(f"  picture: {picture}")
+        print_solution(solution, picture)
 
 
 @app.command
@@ -93,3 +96,35 @@ def info(archive: ArchiveFile, /, *, as_json: AsJson = False) -> None:
         print_json(archive_summary(opened))
     else:
         print_archive(opened)
+
+
+@app.command
+def plot(
+    archive: ArchiveFile,
+    /,
+    *,
+    out: Annotated[Path | None, Parameter(help="PNG file to write; default beside the archive.")] = None,
+    history: Annotated[bool, Parameter(negative="", help="Draw pressures and stretches over the steps.")] = False,
+    step: Annotated[int | None, Parameter(help="Step to draw, as `embedding info` numbers them.")] = None,
+) -> None:
+    """Draw a step of an archive, by default the last one, or the history of its steps."""
+    from embedding.archive import open_archive
+
+    if history and step is not None:
+        raise UsageError("--step: a history shows all steps; leave out one of --step and --history")
+    count = len(open_archive(archive))
+    if count == 0:
+        raise UsageError(f"{archive}: no step was accepted, so there is nothing to draw")
+    if step is not None and not 1 <= step <= count:
+        raise UsageError(f"--step: {step} is not allowed: the archive has steps 1 to {count}")
+    suffix = ".history.png" if history else ".png"
+    target = check_output("--out", archive.with_suffix(suffix) if out is None else out, ".png")
+
+    from embedding import view
+
+    with whole_file(target) as file:
+        if history:
+            view.history_plot(archive, file)
+        else:
+            view.picture(archive, file, step=-1 if step is None else step - 1)
+    print(target)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import importlib.util
 import os
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import ClassVar
 
@@ -41,12 +42,12 @@ def check_output(option: str, path: Path, suffix: str) -> Path:
     return path
 
 
-def check_pictures(option: str) -> None:
-    """Make sure the optional packages that draw are installed.
-
-    Raises:
-        UsageError: pyvista or matplotlib is missing; the message says how to install them.
-    """
-    missing = [name for name in ("pyvista", "matplotlib") if importlib.util.find_spec(name) is None]
-    if missing:
-        raise UsageError(f"{option}: pictures need {' and '.join(missing)}: pip install 'embedding[pictures]'")
+@contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """A place to write to, which becomes ``path`` only if the block ends well: nothing is left half-written."""
+    partial = path.with_name(f".{path.name}.partial")
+    try:
+        yield partial
+        partial.replace(path)
+    finally:
+        partial.unlink(missing_ok=True)

@@ -8,15 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
-from embedding.cli.output import console, cost_line, error_line, number, print_rows, words
+from embedding.cli.output import console, cost_line, error_line, number, print_rows, without_noise, words
 
 if TYPE_CHECKING:
     from embedding.archive import Archive
 
-#: Scalars worth a column for people, in this order; those that are zero or unknown throughout are left out.
-COLUMNS = (
-    "stretch", "pressure_difference", "pressure_top", "pressure_bottom", "volume_ratio", "voltage", "charge",
-)  # fmt: skip
+#: Scalars worth a column for people, in this order; the later ones are left out where they are zero or unknown.
+COLUMNS = ("stretch", "pressure_top", "pressure_bottom", "pressure_difference")
+FURTHER = ("volume_ratio", "voltage", "charge")
 ROWS = 20
 
 
@@ -60,7 +59,8 @@ def print_archive(archive: Archive) -> None:
 def _history(archive: Archive) -> Table:
     """One row a step: where on the path, how many iterations, and the scalars that say something."""
     scalars, units = archive.scalars, archive.scalar_units
-    shown = [name for name in COLUMNS if name in scalars and any(map(_says_something, scalars[name]))]
+    shown = [name for name in COLUMNS if name in scalars]
+    shown += [name for name in FURTHER if name in scalars and any(map(_says_something, scalars[name]))]
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
     for heading in ("step", "stage", "mechanical", "field", "iterations"):
         table.add_column(heading, justify="left" if heading == "stage" else "right")
@@ -71,10 +71,10 @@ def _history(archive: Archive) -> Table:
     if len(steps) < len(archive):
         table.caption = f"the last {ROWS} of {len(archive)} steps; --json shows all"
     for step in steps:
-        values = (number(step.scalars[name]) for name in shown)
+        values = without_noise(step.scalars, units)
         table.add_row(
             str(step.number), step.stage, f"{step.factor_mechanical:.4g}", f"{step.factor_field:.4g}",
-            str(len(step.iterations)), *values,
+            str(len(step.iterations)), *(number(values[name]) for name in shown),
         )  # fmt: skip
     return table
 

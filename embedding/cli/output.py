@@ -11,8 +11,12 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from embedding.archive.reader import ArchivedCost, ArchivedError
     from embedding.solving.solution import Cost, ErrorEstimate, Solution
+
+NOISE = 1e-12
 
 
 def print_json(value: Mapping[str, Any]) -> None:
@@ -37,6 +41,14 @@ def console() -> Console:
 def number(value: float, unit: str = "") -> str:
     """A number with six digits and its unit; the unit "1" is not shown."""
     return f"{value:.6g} {unit}" if unit not in ("", "1") else f"{value:.6g}"
+
+
+def without_noise(values: Mapping[str, float], units: Mapping[str, str]) -> dict[str, float]:
+    """The same values, those far below the largest of their unit set to 0: rounding is no news to people."""
+    largest: dict[str, float] = {}
+    for name, value in values.items():
+        largest[units[name]] = max(largest.get(units[name], 0.0), abs(value))
+    return {name: 0.0 if abs(value) < NOISE * largest[units[name]] else value for name, value in values.items()}
 
 
 def seconds(value: float) -> str:
@@ -76,19 +88,22 @@ def solution_summary(solution: Solution) -> dict[str, Any]:
     }
 
 
-def print_solution(solution: Solution) -> None:
-    """Print the end of a run for people: the final scalars, the error estimate, the cost and the archive."""
+def print_solution(solution: Solution, picture: Path | None) -> None:
+    """Print the end of a run for people: the final scalars, error estimate, cost, archive and picture."""
     from embedding.archive.units import scalar_unit
 
     print(f"{solution.scene.name}: {words(solution.result.name)} after {len(solution.steps)} steps")
     per_length = solution.scene.shell.shape.kind == "infinite-cylinder"
     scalars = solution.steps[-1].scalars if solution.steps else {}
-    rows = [(name, number(value, scalar_unit(name, per_length))) for name, value in scalars.items()]
+    units = {name: scalar_unit(name, per_length) for name in scalars}
+    rows = [(name, number(value, units[name])) for name, value in without_noise(scalars, units).items()]
     if solution.error is not None:
         rows.append(("estimated error", error_line(solution.error)))
     rows.append(("cost", cost_line(solution.cost)))
     if solution.archive is not None:
         rows.append(("archive", str(solution.archive)))
+    if picture is not None:
+        rows.append(("picture", str(picture)))
     print_rows(rows)
 
 

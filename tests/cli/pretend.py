@@ -50,9 +50,7 @@ def solution(scene: Any, archive: Path | None, steps: Sequence[StepRecord], resu
         result=SimpleNamespace(name=result, advice="take smaller steps"),
         message="the whole path is solved",
         steps=tuple(steps),
-        error=Estimate(
-            value=2e-4, quantity="stretch", method="one order lower", parts={"discretisation": 2e-4}
-        ),
+        error=Estimate(value=2e-4, quantity="stretch", method="one order lower", parts={"discretisation": 2e-4}),
         cost=Cost(
             wall_seconds=75.0,
             cpu_seconds=70.0,

@@ -14,9 +14,11 @@ from pathlib import Path
 import pytest
 
 from embedding.archive import open_archive
+from embedding.view import can_render
 from tests.cli.conftest import Outcome
 
 Call = Callable[..., Outcome]
+PNG = b"\x89PNG\r\n"
 ROOT = Path(__file__).parents[2]
 
 
@@ -41,6 +43,41 @@ def test_run_and_info(scene_file: Path, call: Call) -> None:
     assert report["steps"][-1]["scalars"]["pressure_difference"] == pytest.approx(500.0)
     assert report["units"]["pressure_difference"] == "Pa"
     assert "u" in report["blocks"]["shell"]
+
+
+def test_plot(scene_file: Path, call: Call) -> None:
+    call("run", scene_file, "--no-progress", "--out", "mine.vtkhdf")
+    history = call("plot", "mine.vtkhdf", "--history")
+    assert (history.code, history.out, history.err) == (0, "mine.history.png\n", "")
+    assert Path("mine.history.png").read_bytes().startswith(PNG)
+
+    drawn = call("plot", "mine.vtkhdf", "--step", 1, "--out", "first.png")
+    if can_render():
+        assert (drawn.code, drawn.err) == (0, "")
+        assert Path("first.png").read_bytes().startswith(PNG)
+    else:
+        assert drawn.code == 2
+        assert "libegl1" in drawn.err
+    assert not list(scene_file.parent.glob(".*")), "no partial files"
+
+
+@pytest.mark.parametrize(
+    ("words", "part"),
+    [
+        (("--step", 3), "--step: 3 is not allowed: the archive has steps 1 to 2"),
+        (("--step", 0), "--step: 0 is not allowed"),
+        (("--step", "last"), "--step"),
+        (("--step", 1, "--history"), "leave out one of --step and --history"),
+        (("--out", "x.pdf"), "'x.pdf' must end in '.png'"),
+    ],
+)
+def test_plots_that_cannot_be(scene_file: Path, call: Call, words: tuple[object, ...], part: str) -> None:
+    call("run", scene_file, "--no-progress", "--out", "mine.vtkhdf")
+    before = sorted(scene_file.parent.iterdir())
+    outcome = call("plot", "mine.vtkhdf", *words)
+    assert outcome.code == 2
+    assert part in outcome.err
+    assert sorted(scene_file.parent.iterdir()) == before
 
 
 def test_run_as_json_agrees_with_the_archive(scene_file: Path, call: Call) -> None:
