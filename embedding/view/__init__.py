@@ -1,0 +1,7 @@
+"""Pictures and charts from an archive, drawn without a display."""
+
+from embedding.view.history import history_plot
+from embedding.view.picture import picture
+from embedding.view.rendering import RenderError, can_render
+
+__all__ = ["RenderError", "can_render", "history_plot", "picture"]

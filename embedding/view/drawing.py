@@ -1,0 +1,162 @@
+"""Drawing shell and section in space, without axes or labels: an image whose scale is known."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from embedding.view.section import Section, section_mesh
+from embedding.view.surface import Surface
+
+Floats = npt.NDArray[np.float64]
+Limits = tuple[float, float]
+SHELL_COLOURS, FIELD_COLOURS = "YlOrRd", "GnBu"
+EDGE_COLOUR, LINE_COLOUR = "#22222a", "#24385e"
+VIEWS = {  # from where, and what is up
+    "meridian": ((0.42, -1.0, 0.36), (0.0, 0.0, 1.0)),
+    "cross-section": ((0.62, 0.42, 1.0), (0.0, 1.0, 0.0)),
+    "sheet": ((0.45, -1.0, 0.75), (0.0, 0.0, 1.0)),
+}
+PIXELS, WHITE = (2200, 2200), 250
+SPACING = 0.16  # between field lines, relative to the size of the shell
+RASTER = 0.1  # width of the grid on which field lines are followed, relative to their spacing
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """Pixels (height, width, 3) and the size of the image in m."""
+
+    pixels: npt.NDArray[np.uint8]
+    width: float
+    height: float
+
+
+class Canvas:
+    """An off-screen scene of ``size`` pixels with parallel projection and a white background."""
+
+    def __init__(self, view: str, size: tuple[int, int] = PIXELS) -> None:
+        import pyvista
+
+        self._pyvista: Any = pyvista
+        self._plotter: Any = pyvista.Plotter(off_screen=True, window_size=list(size), lighting="light kit")
+        self._plotter.set_background("white")
+        self._plotter.enable_anti_aliasing("ssaa")
+        self.view = view
+
+    def shell(self, surface: Surface, limits: Limits, edge_radius: float, quarter_cut: bool) -> None:
+        """Add the shell with its edges; with ``quarter_cut`` the quarter x > 0, y < 0 is left out."""
+        mesh = self._pyvista.PolyData(surface.points, np.insert(surface.triangles, 0, 3, axis=1).ravel())
+        mesh.point_data["shell"] = surface.values
+        mesh = mesh.clean(tolerance=1e-7).compute_normals(split_vertices=False, cell_normals=False)
+        if quarter_cut:
+            behind = mesh.clip(normal="y", origin=(0, 0, 0), invert=False)
+            mesh = behind.merge(mesh.clip(normal="y", origin=(0, 0, 0)).clip(normal="x", origin=(0, 0, 0)))
+            mesh = mesh.extract_surface(algorithm="dataset_surface").clean(tolerance=1e-5)
+        self._plotter.add_mesh(
+            mesh, scalars="shell", clim=limits, cmap=SHELL_COLOURS, smooth_shading=True, show_scalar_bar=False,
+            ambient=0.48, diffuse=0.56, specular=0.12, specular_power=20,
+        )  # fmt: skip
+        edges = mesh.extract_feature_edges(
+            boundary_edges=True, feature_edges=False, manifold_edges=False, non_manifold_edges=False
+        )
+        if edges.n_cells:
+            tube = edges.strip(join=True).tube(radius=edge_radius, n_sides=12)
+            self._plotter.add_mesh(tube, color=EDGE_COLOUR, ambient=0.4)
+
+    def section(self, section: Section, limits: Limits, size: float, lines: bool) -> None:
+        """Add a plane with the field, and field ``lines``, for a shell of ``size``."""
+        mesh = section_mesh(section)
+        self._plotter.add_mesh(
+            mesh, scalars="values", clim=limits, cmap=FIELD_COLOURS, lighting=False, show_scalar_bar=False
+        )
+        curves = self._field_lines(section, SPACING * size) if lines else None
+        if curves is not None and curves.n_points:
+            self._plotter.add_mesh(
+                curves.tube(radius=0.005 * size, n_sides=8), color=LINE_COLOUR, lighting=False
+            )
+
+    def _field_lines(self, section: Section, spacing: float) -> Any:
+        """Evenly spaced field lines in the plane of a section, slightly in front of it."""
+        across = 2 if self.view == "cross-section" else 1
+        axes = [axis for axis in range(3) if axis != across]
+        flat = section_mesh(section)
+        flat.points = _in_plane(section.points, axes)
+        raster = self._raster(flat, RASTER * spacing)
+        direction = _unit(_in_plane(np.asarray(raster["vectors"]), axes))
+        if across == 1:
+            direction[np.asarray(raster.points)[:, 0] < 0.25 * spacing] = 0.0  # no lines on the edge of the cut
+        raster.point_data["direction"] = direction
+        curves = raster.streamlines_evenly_spaced_2D(
+            vectors="direction", start_position=_well_inside(raster), step_unit="l", step_length=0.1 * spacing,
+            separating_distance=spacing, separating_distance_ratio=0.5, max_steps=5000, terminal_speed=0.5,
+            closed_loop_maximum_distance=0.05 * spacing,
+        )  # fmt: skip
+        points = np.zeros((curves.n_points, 3))
+        points[:, axes] = np.asarray(curves.points)[:, :2]
+        points[:, across] = (0.03 if across == 2 else -0.03) * spacing
+        curves.points = points
+        return curves
+
+    def _raster(self, flat: Any, width: float) -> Any:
+        """A flat mesh on a regular grid, zero outside: lines are followed through it without losing their
+        cell."""
+        low, high = np.asarray(flat.points).min(axis=0), np.asarray(flat.points).max(axis=0)
+        counts = np.ceil((high - low) / width).astype(int) + 1
+        raster = self._pyvista.ImageData(
+            dimensions=(counts[0], counts[1], 1), spacing=(width, width, width), origin=(low[0], low[1], 0.0)
+        )
+        return raster.sample(flat, tolerance=1e-3 * width)
+
+    def draw(self) -> Drawing:
+        """Draw everything, cut the white border off, and close the scene."""
+        position, up = VIEWS[self.view]
+        self._plotter.enable_parallel_projection()
+        self._plotter.camera_position = [position, (0.0, 0.0, 0.0), up]
+        self._plotter.reset_camera()
+        pixels = np.asarray(self._plotter.screenshot(None, return_img=True))
+        metres = 2 * float(self._plotter.camera.parallel_scale) / pixels.shape[0]
+        self._plotter.close()
+        used = pixels.min(axis=2) < WHITE
+        rows, columns = (np.flatnonzero(used.max(axis=axis)) for axis in (1, 0))
+        pixels = pixels[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+        return Drawing(pixels, metres * pixels.shape[1], metres * pixels.shape[0])
+
+
+def _in_plane(vectors: Floats, axes: list[int]) -> Floats:
+    return np.column_stack([vectors[:, axes], np.zeros(len(vectors))])
+
+
+def _unit(vectors: Floats) -> Floats:
+    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.asarray(vectors / np.where(lengths > 0, lengths, 1.0))
+
+
+def _well_inside(raster: Any) -> Floats:
+    """The point of a raster that is furthest from where there is no field, where the first line starts."""
+    from scipy.ndimage import distance_transform_edt
+
+    strong = (np.linalg.norm(raster["direction"], axis=1) > 0.5).reshape(raster.dimensions[1::-1])
+    depth = distance_transform_edt(np.pad(strong, 1))[1:-1, 1:-1]
+    return np.asarray(raster.points[int(depth.argmax())])
+
+
+def colour_limits(parts: Sequence[Floats], from_zero: bool, noise: float) -> Limits:
+    """Range of colours for all ``parts``: wider than ``noise`` and 2 % of the values, from zero on if that
+    is natural.
+
+    A part in a thousand of the values may lie above the range: a singular point must not hide everything
+    else.
+    """
+    values = np.concatenate([part[np.isfinite(part)] for part in parts])
+    low, high = float(values.min()), float(np.quantile(values, 0.999))
+    if from_zero and 0 <= low <= max(0.5 * high, noise):
+        return 0.0, max(high, noise)
+    least = max(0.02 * max(abs(low), abs(high)), noise)
+    if high - low < least:
+        middle = (low + high) / 2
+        low, high = middle - least / 2, middle + least / 2
+    return low, high
