@@ -101,7 +101,7 @@ class SideMotion:
         return self.min_jacobian > GUARD
 
     def _settle(self, face: Any) -> bool:
-        """Move the face, then let the interior take one Newton step on its energy, with an older matrix if it serves."""
+        """Move the face, then let the interior take one Newton step, with an older matrix if it serves."""
         if not self._place(face):
             return False
         before = self.w.vec.FV().NumPy().copy()

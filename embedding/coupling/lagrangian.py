@@ -30,6 +30,10 @@ ANCHOR = 1e-6
 where there is no field a face would have a zero on the diagonal, and elimination without pivoting cannot have that."""
 
 
+OFFSET = {"t": 0.5, "b": -0.5}
+"""Where the faces lie along the director lambda n, in thicknesses."""
+
+
 class Factors:
     """The load parameters of a form: strength of the mechanical loads and of the field, and the target volume."""
 
@@ -66,7 +70,7 @@ class Lagrangian:
 
     def face(self, name: str) -> str:
         """The displacement that moves face ``name`` ("t" or "b")."""
-        return f"y_{name}" if self.unknowns.opened else "u"
+        return f"y_{name}" if name in self.unknowns.opened else "u"
 
     def side_potential_gradient(self, side: str, values: dict[str, Any]) -> Any:
         """Reference gradient of the potential on ``side`` in the elements that touch the shell."""
@@ -97,7 +101,8 @@ class Lagrangian:
         if not field.grounded:
             applied = self.factors.field * CF(field.applied)
             terms.append(
-                far_field_energy(domain.reduction, values["phi"], applied, domain.sizes.radius)
+                self.physics.axial_stretch
+                * far_field_energy(domain.reduction, values["phi"], applied, domain.sizes.radius)
                 * domain.surface("outer")
             )
         if field.contrast is not None and "jump" in values:
@@ -142,10 +147,10 @@ class Lagrangian:
         terms: list[Any] = []
         surface = self.domain.surface()
         shell = self._elastic(kinematics)
-        if self.unknowns.opened:
-            # One compiled expression for everything that is nonlinear in u: they share the kinematics.
-            couple = _trace(values["tau_t"]) - _trace(values["tau_b"])
-            shell = shell + measure * InnerProduct(couple, physics.thickness / 2 * kinematics.director)
+        # One compiled expression for everything that is nonlinear in u: the terms share the kinematics.
+        for face in self.unknowns.opened:
+            offset = OFFSET[face] * physics.thickness * kinematics.director
+            shell = shell + measure * InnerProduct(_trace(values[f"tau_{face}"]), offset)
         terms.append(shell * surface)
         terms += dead_load_energy(self.domain, physics.loads, physics.thickness, u, self.factors.mechanical)
         if self.pressure_has_potential:
@@ -163,7 +168,8 @@ class Lagrangian:
         trial = {name: _trace(value) for name, value in self.unknowns.trial.items()}
         test = {name: _trace(value) for name, value in self.unknowns.test.items()}
         terms = []
-        for y, tau in (("y_t", "tau_t"), ("y_b", "tau_b")) if self.unknowns.opened else ():
+        for face in self.unknowns.opened:
+            y, tau = f"y_{face}", f"tau_{face}"
             pairing = InnerProduct(trial[tau], test["u"] - test[y]) + InnerProduct(test[tau], trial["u"] - trial[y])
             for name, strength in ((tau, ANCHOR), (y, -ANCHOR)):
                 shift = trial[name] - self.unknowns.field(name)

@@ -27,7 +27,8 @@ class FieldPhysics:
 class Physics:
     """The shell, its loads and supports, and the field around it; lengths in shell sizes, stresses in shear moduli.
 
-    ``supports`` lists (where, component) pairs held at zero; ``opened`` places the faces at their true positions.
+    ``supports`` lists (where, component) pairs held at zero; ``opened`` names the faces
+    ("t", "b") that are placed at their true positions; the others count as lying at the mid-surface.
     """
 
     law: Law
@@ -37,5 +38,5 @@ class Physics:
     axial_free: bool
     axial_stretch: float
     volume_controlled: bool
-    opened: bool
+    opened: tuple[str, ...]
     field: FieldPhysics | None

@@ -8,7 +8,7 @@ import numpy as np
 from ngsolve import BND, BilinearForm, FESpace, GridFunction, InnerProduct, Variation
 
 from embedding.ambient.motion import SideMotion
-from embedding.coupling.lagrangian import Factors, Lagrangian
+from embedding.coupling.lagrangian import OFFSET, Factors, Lagrangian
 from embedding.coupling.linear import DirectSolver
 from embedding.coupling.physics import Physics
 from embedding.coupling.tractions import FaceTractions
@@ -42,15 +42,14 @@ class System:
         self._residual = self.unknowns.state.vec.CreateVector()
 
     def place_faces(self) -> None:
-        """Put both faces where the present displacement of the mid-surface has them."""
-        if not self.unknowns.opened:
-            return
+        """Put the opened faces where the present displacement of the mid-surface has them."""
         values = {name: self.unknowns.field(name) for name in self.unknowns.names}
         director = self.lagrangian.kinematics(values).director
-        for face, sign in (("t", 0.5), ("b", -0.5)):
+        for face in self.unknowns.opened:
+            sign = OFFSET[face]
             y = self.unknowns.field(f"y_{face}")
             y.Set(values["u"] + sign * self.physics.thickness * director, BND, definedon=self.domain.shell)
-            y.vec.FV().NumPy()[~self.unknowns.trace.free] = 0.0
+            y.vec.FV().NumPy()[~self.unknowns.face_free] = 0.0
 
     def load(self, mechanical: float, field: float, volume: float | None, pressure: float | None = None) -> None:
         """Set the load factors.

@@ -32,11 +32,11 @@ class FaceTractions:
         unknowns, domain = lagrangian.unknowns, lagrangian.domain
         self.face = face
         self._domain = domain
-        if unknowns.opened:
+        if face in unknowns.opened:
             self.tau, displacement = unknowns.field(f"tau_{face}"), unknowns.field(f"y_{face}")
             self._recovery = None
         else:
-            self.tau, displacement = GridFunction(unknowns.trace.space), unknowns.field("u")
+            self.tau, displacement = GridFunction(unknowns.face_spaces[face]), unknowns.field("u")
             self._recovery = NodalForces(lagrangian, face)
         self.kinematics = Kinematics(domain.reduction, domain.normal, displacement, lagrangian.physics.axial_stretch)
 
@@ -70,7 +70,7 @@ class NodalForces:
 
     def __init__(self, lagrangian: Lagrangian, face: str) -> None:
         unknowns, domain = lagrangian.unknowns, lagrangian.domain
-        space = unknowns.trace.space
+        space = unknowns.face_spaces[face]
         motion = space.TrialFunction()
         values = {name: unknowns.field(name) for name in unknowns.names if name in ("phi", "jump")}
         values["face"] = motion
@@ -82,7 +82,7 @@ class NodalForces:
         mass += domain.reduction.measure * InnerProduct(trial.Trace(), test.Trace()) * domain.surface()
         mass.Assemble()
         self._mass = mass
-        self._inverse = mass.mat.Inverse(as_bits(unknowns.trace.free), inverse="sparsecholesky")
+        self._inverse = mass.mat.Inverse(as_bits(unknowns.face_free), inverse="sparsecholesky")
         self._displacement = unknowns.field("u")
 
     def recover(self, tau: GridFunction) -> None:

@@ -18,7 +18,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from ngsolve import FESpace, GridFunction, NumberSpace
+from ngsolve import BND, FESpace, GridFunction, NumberSpace
 
 from embedding.ambient.motion import symmetry_components
 from embedding.ambient.potential import PotentialSpaces
@@ -36,18 +36,17 @@ class Unknowns:
     def __init__(self, domain: Domain, physics: Physics) -> None:
         self.domain = domain
         self.faces = FACES if physics.field is not None else ()
-        self.opened = physics.opened and physics.field is not None
+        self.opened = physics.opened if physics.field is not None else ()
         self.potential = _potential(domain, physics)
-        self.trace = _displacement(domain, physics.supports, "shell" if self.opened else "")
-        self.face_spaces = {
-            face: self.trace.reaching(domain.materials(SIDES[face])) if self.opened else self.trace.space
-            for face in self.faces
-        }
+        self.trace = _displacement(domain, self._reach_of_u())
+        self.face_free = self.trace.free  # supports hold the mid-surface; the faces only know symmetry
+        _support(domain, self.trace, physics.supports)
         self._parts: dict[str, tuple[Any, Mask]] = {"u": (self.trace.space, self.trace.free)}
-        if self.opened:
-            for face in self.faces:
-                self._parts[f"y_{face}"] = (self.face_spaces[face], self.trace.free)
-                self._parts[f"tau_{face}"] = (self.trace.space, self.trace.free)
+        self.face_spaces = {face: self.trace.space for face in self.faces}
+        for face in self.opened:
+            self.face_spaces[face] = self.trace.reaching(domain.materials(SIDES[face]))
+            self._parts[f"y_{face}"] = (self.face_spaces[face], self.face_free)
+            self._parts[f"tau_{face}"] = (self.trace.space, self.face_free)
         if self.potential is not None:
             masks = [self.potential.free_phi] + ([self.potential.jump.free] if self.potential.jump else [])
             for name, space, mask in zip(("phi", "jump"), self.potential.spaces, masks, strict=False):
@@ -61,6 +60,11 @@ class Unknowns:
         self.state = GridFunction(self.space)
         self.trial = dict(zip(self.names, self.space.TrialFunction(), strict=True))
         self.test = dict(zip(self.names, self.space.TestFunction(), strict=True))
+
+    def _reach_of_u(self) -> str:
+        """u itself moves the ambient only where a face lies at the mid-surface."""
+        closed = [face for face in self.faces if face not in self.opened]
+        return {0: "shell", 1: self.domain.materials(SIDES[closed[0]]) if closed else "", 2: ""}[len(closed)]
 
     def __contains__(self, name: str) -> bool:
         return name in self._parts
@@ -93,21 +97,22 @@ def _potential(domain: Domain, physics: Physics) -> PotentialSpaces | None:
     return PotentialSpaces(domain, field.electrodes, field.grounded, field.applied, field.odd_planes)
 
 
-def _displacement(domain: Domain, supports: tuple[tuple[str, int], ...], reach: str) -> TraceSpace:
-    """Displacement space of the mid-surface with symmetry, axis and supports held."""
+def _displacement(domain: Domain, reach: str) -> TraceSpace:
+    """Displacement space of the mid-surface with what symmetry and the axis hold."""
     trace = TraceSpace(domain.mesh, domain.sizes.order, reach=reach)
     for axis in symmetry_components(domain):
         trace.fix(axis, plane_mask(trace.scalar, axis))
+    return trace
+
+
+def _support(domain: Domain, trace: TraceSpace, supports: tuple[tuple[str, int], ...]) -> None:
     for where, component in supports:
         region = domain.shell if where == "surface" else domain.mesh.BBoundaries(where)
         trace.fix(component, scalar_mask(trace.scalar, region))
-    return trace
 
 
 def free_rigid_motions(domain: Domain, trace: TraceSpace) -> list[Any]:
     """Rigid motions that the supports and mirror planes leave free, as coefficient functions of shape (d,)."""
-    from ngsolve import BND
-
     motions = domain.reduction.rigid_motions()
     held = ~trace.free
     field = GridFunction(trace.space)

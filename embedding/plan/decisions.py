@@ -21,12 +21,13 @@ class Decision:
 class Plan:
     """Everything the solver needs to know beyond the scene; sizes are relative to the size of the shape.
 
-    ``odd_planes`` are mirror planes across which the potential changes sign.
+    ``opened`` names the faces ("t", "b") at their true places, ``odd_planes`` the mirror planes across which the
+    potential changes sign.
     """
 
     reduction: Reduction
     sizes: MeshSizes
-    opened: bool
+    opened: tuple[str, ...]
     odd_planes: tuple[str, ...]
     decisions: tuple[Decision, ...]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from embedding.geometry.domain import MeshSizes
+from embedding.geometry.reduction import Reduction
 from embedding.plan.decisions import Decision, Plan
 from embedding.plan.symmetry import choose_reduction, odd_planes
 from embedding.scene import Scene
@@ -22,7 +23,8 @@ def explain(scene: Scene) -> Plan:
     odd = odd_planes(scene, reduction)
     opened, faces = _interface(scene)
     sizes, mesh = _sizes(scene, reduction.name)
-    decisions = (first, _theory(scene), _loads(scene), *_field(scene), *faces, *mesh, _order(scene))
+    rest = (_loads(scene), *_rigid(scene, reduction), *_field(scene), *faces, *mesh, _order(scene))
+    decisions = (first, _theory(scene), *rest)
     return Plan(reduction, sizes, opened, odd, decisions)
 
 
@@ -44,13 +46,17 @@ def _loads(scene: Scene) -> Decision:
     return Decision("face pressures", variant, reason)
 
 
+def _rigid(scene: Scene, reduction: Reduction) -> tuple[Decision, ...]:
+    if scene.supports or not scene.shell.shape.closed or len(reduction.planes) == reduction.dimension:
+        return ()
+    reason = "free rigid motions are held by a uniform dead force; its size is recorded (held_force)"
+    return (Decision("rigid motion", "held", reason),)
+
+
 def _field(scene: Scene) -> tuple[Decision, ...]:
     if scene.ambient is None:
         return (Decision("ambient", "none", "the scene has no field: nothing around the shell is meshed"),)
-    faces = scene.faces
-    voltages = {electrode.voltage for electrode in (faces.top, faces.bottom) if electrode is not None}
-    both = faces.top is not None and faces.bottom is not None
-    if both and len(voltages) == 1:
+    if _conductor(scene):
         jump = Decision("potential", "continuous", "both faces are electrodes at one potential: no jump to solve for")
     else:
         jump = Decision("potential", "with a jump", "the faces may differ: the jump is an unknown on the shell")
@@ -62,15 +68,24 @@ def _field(scene: Scene) -> tuple[Decision, ...]:
     return moving, jump, far
 
 
-def _interface(scene: Scene) -> tuple[bool, tuple[Decision, ...]]:
+def _interface(scene: Scene) -> tuple[tuple[str, ...], tuple[Decision, ...]]:
     if scene.ambient is None:
-        return False, ()
+        return (), ()
     ratio = scene.shell.thickness / scene.shell.shape.size
     if scene.model.interface == "closed":
         reason = f"pinned by the scene; first order in the thickness, about {0.2 * ratio:.1e} of the stretch"
-        return False, (Decision("interface", "closed", reason),)
+        return (), (Decision("interface", "closed", reason),)
     reason = "faces at their true places: second order in the thickness"
-    return True, (Decision("interface", "opened", reason),)
+    if scene.model.interface == "auto" and _conductor(scene):
+        reason += "; the bottom face bounds a space without a field, where its place is not felt"
+        return ("t",), (Decision("interface", "opened at the top", reason),)
+    return ("t", "b"), (Decision("interface", "opened", reason),)
+
+
+def _conductor(scene: Scene) -> bool:
+    """Are both faces of the closed shell electrodes at one potential? Then there is no field inside."""
+    top, bottom = scene.faces.top, scene.faces.bottom
+    return top is not None and bottom is not None and top.voltage == bottom.voltage
 
 
 def _sizes(scene: Scene, reduction: str) -> tuple[MeshSizes, tuple[Decision, ...]]:

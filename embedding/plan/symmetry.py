@@ -18,14 +18,20 @@ def choose_reduction(scene: Scene) -> tuple[Reduction, Decision]:
     elif "axisymmetric" not in scene.shell.shape.reductions:
         name, reason = "3d", "the shape has no axis"
     else:
-        obstacles = axisymmetry_problems(scene)
+        obstacles = [problem.path for problem in axisymmetry_problems(scene)] + _lopsided_supports(scene)
         name = "3d" if obstacles else "axisymmetric"
-        reason = f"{obstacles[0].path} is not axisymmetric" if obstacles else "shape and loads share the z axis"
+        reason = f"{obstacles[0]} is not axisymmetric" if obstacles else "shape and loads share the z axis"
     planes = _mirror_planes(scene, name)
     if planes:
         reason += f"; mirrored about {', '.join(planes)}"
     choice = f"{name}, 1/{2 ** len(planes)}" if planes else name
     return Reduction(name, planes), Decision("dimension", choice, reason)
+
+
+def _lopsided_supports(scene: Scene) -> list[str]:
+    """Supports that hold x without y or the other way round, by the path of their field."""
+    fixed = [support.fix for support in scene.supports]
+    return [f"supports.{i}.fix" for i, fix in enumerate(fixed) if ("x" in fix) != ("y" in fix)]
 
 
 def _mirror_planes(scene: Scene, reduction: str) -> tuple[str, ...]:

@@ -37,6 +37,7 @@ class Kinematics:
 
     def __init__(self, reduction: Reduction, normal: Any, u: Any, axial: Any = 1.0, hoop: Any = None) -> None:
         self.dimension = reduction.dimension
+        self.u = u
         self.reference_normal = normal
         self.projector = Id(self.dimension) - OuterProduct(normal, normal)
         self.gradient = surface_gradient(u)

@@ -16,7 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from ngsolve import BND, CF, H1, Cross, GridFunction, InnerProduct, Parameter, ds, dx, specialcf, x
+from ngsolve import BND, CF, H1, Cross, GridFunction, IfPos, InnerProduct, Parameter, ds, dx, specialcf, x
 
 from embedding.geometry.domain import Domain
 from embedding.shell.kinematics import Kinematics, surface_gradient
@@ -100,7 +100,7 @@ def follower_residual(
     rim_sign = _rim_sign(loads)
     if rim_sign and domain.rims:
         line = ds(definedon=domain.shell, element_boundary=True)
-        outward = kinematics.inverse_transpose * _conormal(domain)
+        outward = _off_axis(domain, kinematics).inverse_transpose * _conormal(domain)
         on_rim = domain.rim_indicator(domain.rims)
         terms.append(rim_sign * thickness * measure * on_rim * loads.mean * InnerProduct(outward, trace) * line)
     return terms
@@ -111,6 +111,15 @@ def _rim_sign(loads: MechanicalLoads) -> float:
     if loads.variant == "embedding-aware":
         return -1.0 if loads.rim_is_free else 0.0
     return 1.0 if loads.variant == "as-published" and not loads.rim_is_free else 0.0
+
+
+def _off_axis(domain: Domain, kinematics: Kinematics) -> Kinematics:
+    """The kinematics with a hoop stretch of 1 on the axis, which element edges touch but no rim does."""
+    if domain.reduction.name != "axisymmetric":
+        return kinematics
+    on_axis = IfPos(x - 1e-9, 0.0, 1.0)
+    hoop = 1 + kinematics.u[0] / (x + on_axis)
+    return Kinematics(domain.reduction, kinematics.reference_normal, kinematics.u, hoop=hoop)
 
 
 def _conormal(domain: Domain) -> Any:

@@ -11,7 +11,7 @@ from ngsolve import SetNumThreads, TaskManager
 
 from embedding.plan import explain
 from embedding.scene import Scene, Stage
-from embedding.solving.diagnosis import diagnose, response_rate
+from embedding.solving.diagnosis import compressed, diagnose, response_rate
 from embedding.solving.estimate import estimate_error
 from embedding.solving.events import Iteration, Listener, StepRecord
 from embedding.solving.newton import Newton
@@ -121,12 +121,17 @@ class Run:
                 listener.iterated(number, target.report(), iteration)
 
         outcome = self.newton.solve(watch)
-        if outcome.reason is not None:
+        reason: Result | None = outcome.reason
+        scalars: dict[str, float] = {}
+        if reason is None:
+            scalars = self.state.scalars()
+            reason = Result.COMPRESSIVE_MEMBRANE if compressed(self.problem, scalars) else None
+        if reason is not None:
             system.restore(saved)
             system.load(self.at.mechanical, self.at.field, self.at.volume, self.at.pressure)
-            return outcome.reason
+            return reason
         record = StepRecord(
-            number, stage.name, target.mechanical, target.field, outcome.iterations, self.state.scalars(),
+            number, stage.name, target.mechanical, target.field, outcome.iterations, scalars,
             time.perf_counter() - started,
         )  # fmt: skip
         self.steps.append(record)

@@ -63,10 +63,10 @@ class Newton:
                 update, residual = self._update()
             except LinearSolverError:
                 return Outcome(tuple(iterations), Result.LINEAR_SOLVER_FAILED)
-            if not math.isfinite(update + residual):
-                return Outcome(tuple(iterations), Result.STEP_BELOW_MINIMUM)
             if update == math.inf:
                 return Outcome(tuple(iterations), Result.INVERTED_AMBIENT)
+            if not math.isfinite(update + residual):
+                return Outcome(tuple(iterations), Result.STEP_BELOW_MINIMUM)
             iterations.append(Iteration(number, update, residual, *self._pressures()))
             watch(iterations[-1])
             if max(update, residual) < self.tolerance:

@@ -85,8 +85,12 @@ def refuse_unmodelled(scene: Scene) -> None:
     problems = []
     if open_tube and scene.ambient is not None:
         problems.append(SceneProblem("shell.shape.axial", '"free" is not allowed with an ambient: use "held"'))
-    if open_tube and any(stage.volume_ratio is not None for stage in scene.path):
+    controlled = any(stage.volume_ratio is not None for stage in scene.path)
+    if open_tube and controlled:
         problems.append(SceneProblem("path", 'volume_ratio is not allowed with axial = "free": prescribe pressures'))
+    if controlled and scene.loads.variant == "as-published":
+        reason = 'volume_ratio is not allowed with loads.variant = "as-published": prescribe pressures'
+        problems.append(SceneProblem("path", reason))
     if problems:
         raise SceneError(problems)
 

@@ -70,7 +70,7 @@ class State:
         """p_t and p_b, the total pressures on the true faces, dimensionless."""
         top, bottom = self._mechanical_pressures()
         for face, traction in self._system.tractions.items():
-            kinematics = self._kinematics(f"y_{face}" if self._unknowns.opened else "u")
+            kinematics = self._kinematics(self._system.lagrangian.face(face))
             pressure = traction.pressure(kinematics)
             top, bottom = (top + pressure, bottom) if face == "t" else (top, bottom + pressure)
         return CF(top), CF(bottom)
@@ -109,7 +109,7 @@ class State:
             Field("shell", "normal", "1", k.normal),
         ]
         for face, traction in self._system.tractions.items():
-            kinematics = self._kinematics(f"y_{face}" if self._unknowns.opened else "u")
+            kinematics = self._kinematics(self._system.lagrangian.face(face))
             out.append(Field("shell", f"t_{face}", "Pa", scales.stress * traction.tangential(kinematics)))
         for side in self._system.motions:
             out += self._ambient_fields(side)
@@ -159,7 +159,16 @@ class State:
         )
         if "axial" in self._values:
             named["axial_stretch"] = float(self._values["axial"].vec[0])
+        if self._unknowns.rigid:
+            named["held_force"] = self._scales.stress * self._scales.length ** (self._lengths - 1) * self.held_force
         return named | self._field_scalars(energy)
+
+    @property
+    def held_force(self) -> float:
+        """Size of the uniform dead force that holds the free rigid motions, dimensionless; 0 if the loads balance."""
+        area = self._domain.shell_integral(1.0)
+        forces = [float(self._values[f"rigid{i}"].vec[0]) for i in range(len(self._unknowns.rigid))]
+        return area * math.sqrt(sum(force**2 for force in forces))
 
     def _stretches(self) -> dict[str, float]:
         area = self._domain.shell_integral(1.0)

@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from embedding.view.lines import Raster, field_lines
 from embedding.view.section import Section, section_mesh
 from embedding.view.surface import Surface
 
 Floats = npt.NDArray[np.float64]
 Limits = tuple[float, float]
 SHELL_COLOURS, FIELD_COLOURS = "YlOrRd", "GnBu"
-EDGE_COLOUR, LINE_COLOUR = "#22222a", "#24385e"
+EDGE_COLOUR, LINE_COLOUR, OUTLINE_COLOUR = "#22222a", "#24385e", "#6b6b75"
 VIEWS = {  # from where, and what is up
     "meridian": ((0.42, -1.0, 0.36), (0.0, 0.0, 1.0)),
     "cross-section": ((0.62, 0.42, 1.0), (0.0, 1.0, 0.0)),
@@ -23,6 +24,7 @@ VIEWS = {  # from where, and what is up
 }
 PIXELS, WHITE = (2200, 2200), 250
 SPACING = 0.16  # between field lines, relative to the size of the shell
+DASH = 0.06  # length of a dash, relative to the size of the shell
 RASTER = 0.1  # width of the grid on which field lines are followed, relative to their spacing
 
 
@@ -42,7 +44,7 @@ class Canvas:
         import pyvista
 
         self._pyvista: Any = pyvista
-        self._plotter: Any = pyvista.Plotter(off_screen=True, window_size=list(size), lighting="light kit")
+        self._plotter: Any = self._pyvista.Plotter(off_screen=True, window_size=list(size), lighting="light kit")
         self._plotter.set_background("white")
         self._plotter.enable_anti_aliasing("ssaa")
         self.view = view
@@ -67,49 +69,54 @@ class Canvas:
             tube = edges.strip(join=True).tube(radius=edge_radius, n_sides=12)
             self._plotter.add_mesh(tube, color=EDGE_COLOUR, ambient=0.4)
 
+    def outline(self, surface: Surface, size: float) -> None:
+        """Dash the outline of a shell where the picture's plane cuts it, or its edges if there is no such
+        plane."""
+        mesh = self._pyvista.PolyData(surface.points, np.insert(surface.triangles, 0, 3, axis=1).ravel())
+        if self.view == "sheet":
+            curves = mesh.clean(tolerance=1e-7).extract_feature_edges(feature_edges=False, manifold_edges=False)
+        elif self.view == "cross-section":
+            curves = mesh.slice(normal="z", origin=(0, 0, 1e-3 * size))
+        else:
+            curves = mesh.slice(normal="y", origin=(0, -1e-3 * size, 0)).clip(normal="-x", origin=(0, 0, 0))
+            curves = curves.extract_geometry()
+        for curve in curves.strip(join=True, max_length=1 << 20).cell if curves.n_cells else ():
+            for dash in _dashes(np.asarray(curve.points, float), DASH * size):
+                tube = self._pyvista.lines_from_points(dash).tube(radius=0.006 * size, n_sides=8)
+                self._plotter.add_mesh(tube, color=OUTLINE_COLOUR, lighting=False)
+
     def section(self, section: Section, limits: Limits, size: float, lines: bool) -> None:
         """Add a plane with the field, and field ``lines``, for a shell of ``size``."""
-        mesh = section_mesh(section)
         self._plotter.add_mesh(
-            mesh, scalars="values", clim=limits, cmap=FIELD_COLOURS, lighting=False, show_scalar_bar=False
-        )
-        curves = self._field_lines(section, SPACING * size) if lines else None
-        if curves is not None and curves.n_points:
-            self._plotter.add_mesh(
-                curves.tube(radius=0.005 * size, n_sides=8), color=LINE_COLOUR, lighting=False
-            )
+            section_mesh(section), scalars="values", clim=limits, cmap=FIELD_COLOURS, lighting=False,
+            show_scalar_bar=False,
+        )  # fmt: skip
+        for line in self._field_lines(section, SPACING * size) if lines else ():
+            tube = self._pyvista.lines_from_points(line).tube(radius=0.005 * size, n_sides=8)
+            self._plotter.add_mesh(tube, color=LINE_COLOUR, lighting=False)
 
-    def _field_lines(self, section: Section, spacing: float) -> Any:
-        """Evenly spaced field lines in the plane of a section, slightly in front of it."""
+    def _field_lines(self, section: Section, spacing: float) -> list[Floats]:
+        """Field lines in the plane of a section, as points in space slightly in front of it."""
         across = 2 if self.view == "cross-section" else 1
         axes = [axis for axis in range(3) if axis != across]
+        width = RASTER * spacing
         flat = section_mesh(section)
         flat.points = _in_plane(section.points, axes)
-        raster = self._raster(flat, RASTER * spacing)
-        direction = _unit(_in_plane(np.asarray(raster["vectors"]), axes))
-        if across == 1:
-            direction[np.asarray(raster.points)[:, 0] < 0.25 * spacing] = 0.0  # no lines on the edge of the cut
-        raster.point_data["direction"] = direction
-        curves = raster.streamlines_evenly_spaced_2D(
-            vectors="direction", start_position=_well_inside(raster), step_unit="l", step_length=0.1 * spacing,
-            separating_distance=spacing, separating_distance_ratio=0.5, max_steps=5000, terminal_speed=0.5,
-            closed_loop_maximum_distance=0.05 * spacing,
-        )  # fmt: skip
-        points = np.zeros((curves.n_points, 3))
-        points[:, axes] = np.asarray(curves.points)[:, :2]
-        points[:, across] = (0.03 if across == 2 else -0.03) * spacing
-        curves.points = points
-        return curves
-
-    def _raster(self, flat: Any, width: float) -> Any:
-        """A flat mesh on a regular grid, zero outside: lines are followed through it without losing their
-        cell."""
         low, high = np.asarray(flat.points).min(axis=0), np.asarray(flat.points).max(axis=0)
-        counts = np.ceil((high - low) / width).astype(int) + 1
-        raster = self._pyvista.ImageData(
-            dimensions=(counts[0], counts[1], 1), spacing=(width, width, width), origin=(low[0], low[1], 0.0)
+        columns, rows = (np.ceil((high - low) / width).astype(int) + 1)[:2]
+        grid = self._pyvista.ImageData(
+            dimensions=(columns, rows, 1), spacing=(width, width, width), origin=(low[0], low[1], 0.0)
         )
-        return raster.sample(flat, tolerance=1e-3 * width)
+        vectors = np.asarray(grid.sample(flat, tolerance=1e-3 * width)["vectors"], float)[:, axes]
+        if across == 1:
+            vectors[np.asarray(grid.points)[:, 0] < 0.25 * spacing] = 0.0  # no lines on the edge of the cut
+        placed = []
+        for line in field_lines(Raster(vectors.reshape(rows, columns, 2)), 1 / RASTER):
+            points = np.zeros((len(line), 3))
+            points[:, axes] = low[:2] + width * line
+            points[:, across] = (0.03 if across == 2 else -0.03) * spacing
+            placed.append(points)
+        return placed
 
     def draw(self) -> Drawing:
         """Draw everything, cut the white border off, and close the scene."""
@@ -126,22 +133,17 @@ class Canvas:
         return Drawing(pixels, metres * pixels.shape[1], metres * pixels.shape[0])
 
 
+def _dashes(points: Floats, length: float) -> list[Floats]:
+    """Pieces of a polyline of about ``length`` each, with gaps two thirds as long between them."""
+    travelled = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    count = max(1, round(travelled[-1] / (5 / 3 * length)))
+    pitch = travelled[-1] / count
+    at = [np.linspace(number * pitch, (number + 0.6) * pitch, 5) for number in range(count)]
+    return [np.column_stack([np.interp(a, travelled, points[:, axis]) for axis in range(3)]) for a in at]
+
+
 def _in_plane(vectors: Floats, axes: list[int]) -> Floats:
     return np.column_stack([vectors[:, axes], np.zeros(len(vectors))])
-
-
-def _unit(vectors: Floats) -> Floats:
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.asarray(vectors / np.where(lengths > 0, lengths, 1.0))
-
-
-def _well_inside(raster: Any) -> Floats:
-    """The point of a raster that is furthest from where there is no field, where the first line starts."""
-    from scipy.ndimage import distance_transform_edt
-
-    strong = (np.linalg.norm(raster["direction"], axis=1) > 0.5).reshape(raster.dimensions[1::-1])
-    depth = distance_transform_edt(np.pad(strong, 1))[1:-1, 1:-1]
-    return np.asarray(raster.points[int(depth.argmax())])
 
 
 def colour_limits(parts: Sequence[Floats], from_zero: bool, noise: float) -> Limits:

@@ -30,12 +30,14 @@ class Bar:
 
 @dataclass(frozen=True)
 class Page:
-    """What surrounds a drawing; ``scale`` is the length in m of the scale below it."""
+    """What surrounds a drawing; ``scale`` is the length in m of the scale below it, ``note`` stands beside
+    it."""
 
     title: str
     caption: str
     bars: tuple[Bar, ...]
     scale: float
+    note: str
 
     def save(self, drawing: Drawing, output: Path) -> Path:
         """Put everything on a page as large as it needs to be, and write it as a PNG file."""
@@ -89,3 +91,4 @@ class Page:
         )
         words = quantity(self.scale, "m")
         axes.text(length / 2, -0.3, words, fontsize=11, color=INK, ha="center", va="top")
+        axes.text(length + 0.35, -0.22, self.note, fontsize=10.5, color=GREY, ha="left", va="center")

@@ -19,6 +19,7 @@ from embedding.view.surface import shell_surface
 
 REACH = 2.4  # how much of the ambient is shown, in sizes of the shell
 FIELD_FREE = 1e-3  # a side whose field is weaker than this part of the other's is left out
+MOVED = 0.02  # how far a shell must have moved, relative to its size, for its old outline to be shown
 ROUNDING = 1e-7  # relative to the scales of a run
 CAPTION = {
     "voltage": "voltage",
@@ -65,10 +66,14 @@ def picture(
     canvas = Canvas(view)
     edge = 0.004 * size if view == "sheet" else _edge_radius(opened, number, size)
     canvas.shell(surface, limits, edge, quarter_cut=closed and opened.run["reduction"] == "3d")
+    moved = float(np.linalg.norm(opened.block("shell").field("u", number), axis=1).max()) > MOVED * size
+    if moved:
+        canvas.outline(shell_surface(opened, shell_field, number, deformed=False), size)
     bars = [Bar(SHELL_COLOURS, limits, shell_field, unit)]
     if "outside" in opened.blocks:
         bars.append(_add_ambient(canvas, opened, ambient_field, number, size, reach, lines))
-    page = Page(opened.run["name"].replace("_", " "), _caption(opened, number), tuple(bars), round_length(size))
+    title, note = opened.run["name"].replace("_", " "), "dashed: undeformed" if moved else ""
+    page = Page(title, _caption(opened, number), tuple(bars), round_length(size), note)
     return page.save(canvas.draw(), Path(output))
 
 

@@ -35,9 +35,14 @@ class Surface:
 
 
 def shell_surface(
-    archive: Archive, field: str, step: int, turn: tuple[float, float] = (0.0, 360.0), depth: float = 2.0
+    archive: Archive,
+    field: str,
+    step: int,
+    turn: tuple[float, float] = (0.0, 360.0),
+    depth: float = 2.0,
+    deformed: bool = True,
 ) -> Surface:
-    """The deformed shell of a step, coloured by ``field`` (the length of a vector), its mirror images
+    """The shell of a step, coloured by ``field`` (the length of a vector), its mirror images
     included.
 
     ``turn`` holds the angles in degrees between which an axisymmetric shell is revolved about z; ``depth``
@@ -45,7 +50,9 @@ def shell_surface(
     """
     block = archive.block("shell")
     fine = Tessellation(block.cells, block.cell_type, block.order, STEPS[1 if block.cell_type == LINE else 2])
-    points = fine.values(block.points) + fine.values(block.field("u", step))
+    points = fine.values(block.points)
+    if deformed:
+        points = points + fine.values(block.field("u", step))
     values = magnitude(fine.values(block.field(field, step)))
     reduction = archive.run["reduction"]
     if reduction == "axisymmetric":

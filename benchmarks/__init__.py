@@ -1,0 +1,1 @@
+"""How fast: ratios made in one run, so that they mean the same on every machine."""
