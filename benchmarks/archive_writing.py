@@ -47,4 +47,4 @@ def report() -> Iterator[str]:
             whole = time.perf_counter() - start
             size = recorder.path.stat().st_size / 2**20
         share = recorder.seconds / (whole - recorder.seconds)
-        yield f"mesh {shell_size:g}: {len(solution.steps)} steps, {size:.1f} MB, writing / solving = {100 * share:.1f} %"
+        yield f"mesh {shell_size:g}: {len(solution.steps)} steps, {size:.1f} MB, writing/solving {100 * share:.1f} %"

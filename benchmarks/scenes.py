@@ -17,7 +17,5 @@ def balloon(*, shell_size: float, ambient_size: float = 2.0, interface: str = "a
         faces=Faces(top=Electrode(voltage=VOLTAGE), bottom=Electrode(voltage=VOLTAGE)),
         path=(Stage(steps=steps),),
         model=Model(reduction="3d", interface=interface),
-        discretisation=Discretisation(
-            order=3, shell_size=shell_size * RADIUS, ambient_size=ambient_size * RADIUS
-        ),
+        discretisation=Discretisation(order=3, shell_size=shell_size * RADIUS, ambient_size=ambient_size * RADIUS),
     )

@@ -35,12 +35,17 @@ OFFSET = {"t": 0.5, "b": -0.5}
 
 
 class Factors:
-    """The load parameters of a form: strength of the mechanical loads and of the field, and the target volume."""
+    """The parameters of a form: strength of the mechanical loads and of the field, target volume, proximal stiffness.
+
+    The proximal stiffness (shear moduli) ties the mid-surface to where it is, in the matrix only: Newton's method then
+    takes shorter steps, to the same solution. A membrane at rest needs it, whose matrix is singular or nearly so.
+    """
 
     def __init__(self) -> None:
         self.mechanical = Parameter(0.0)
         self.field = Parameter(0.0)
         self.volume = Parameter(1.0)
+        self.proximal = Parameter(0.0)
 
 
 class Lagrangian:
@@ -136,7 +141,7 @@ class Lagrangian:
         if self.physics.field is not None:
             for term in self.field_energies(trial):
                 form += Variation(-1 * term).Compile()
-        for term in [*self._openings(), *residuals]:
+        for term in [self._proximal(), *self._openings(), *residuals]:
             form += term.Compile()
         return form
 
@@ -158,6 +163,11 @@ class Lagrangian:
         for i, motion in enumerate(self.unknowns.rigid):
             terms.append(measure * values[f"rigid{i}"] * InnerProduct(motion, u) * self.domain.surface())
         return terms
+
+    def _proximal(self) -> Any:
+        shift = _trace(self.unknowns.trial["u"]) - self.unknowns.field("u")
+        pull = self.factors.proximal * self.physics.thickness * InnerProduct(shift, _trace(self.unknowns.test["u"]))
+        return self.measure * pull * self.domain.surface()
 
     def _openings(self) -> list[Any]:
         """The part of the faces' terms that is linear in the unknowns, with the anchors, as a bilinear form.

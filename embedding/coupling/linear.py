@@ -7,6 +7,10 @@ a solve that is not accurate is repeated with pivoting.
 
 from __future__ import annotations
 
+import contextlib
+import os
+import sys
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -16,6 +20,21 @@ from embedding.geometry.spaces import as_mask
 
 ACCURATE = 1e-8
 REFINE = 1e-11
+
+
+@contextlib.contextmanager
+def silent_stdout() -> Iterator[None]:
+    """Keep the C libraries' own words about singular matrices off standard output; errors are reported as errors."""
+    sys.stdout.flush()
+    kept = os.dup(1)
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nowhere, 1)
+        yield
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
+        os.close(nowhere)
 
 
 class LinearSolverError(EmbeddingError):
@@ -44,7 +63,8 @@ class DirectSolver:
         worst = "no solver ran"
         for method in self._methods:
             try:
-                inverse = matrix.Inverse(self.free, inverse=method)
+                with silent_stdout():
+                    inverse = matrix.Inverse(self.free, inverse=method)
             except Exception as error:  # NGSolve raises its own untyped exceptions for singular matrices
                 worst = f"{method}: {error}"
                 continue

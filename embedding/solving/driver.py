@@ -120,7 +120,7 @@ class Run:
             for listener in self.listeners:
                 listener.iterated(number, target.report(), iteration)
 
-        outcome = self.newton.solve(watch)
+        outcome = self.newton.solve(watch, at_rest=not self.steps)
         reason: Result | None = outcome.reason
         scalars: dict[str, float] = {}
         if reason is None:

@@ -22,6 +22,8 @@ from embedding.solving.result import Result
 
 LARGEST_UPDATE = 0.5
 MOST_HALVINGS = 6
+PROXIMAL, FADING, GONE = 0.3, 0.4, 1e-4
+"""Proximal stiffness of the first iteration in shear moduli, its factor from one to the next, and where it ends."""
 
 
 @dataclass
@@ -53,12 +55,34 @@ class Newton:
         self._pressures = pressures
         self.clock = Clock()
 
-    def solve(self, watch: Callable[[Iteration], None]) -> Outcome:
-        """Iterate from the present state; the state is only good afterwards if the outcome has no reason."""
+    def solve(self, watch: Callable[[Iteration], None], *, at_rest: bool = False) -> Outcome:
+        """Iterate from the present state; the state is only good afterwards if the outcome has no reason.
+
+        A membrane ``at_rest`` has no stiffness against bending or, without curvature, against any motion out of its
+        plane. If plain Newton fails from there, a second attempt starts with a proximal term and lets it fade.
+        """
+        if not at_rest:
+            return self._iterate(watch, 0.0)
+        saved = self.system.save()
+        outcome = self._iterate(watch, 0.0)
+        if outcome.reason is None or outcome.reason is Result.INTERRUPTED:
+            return outcome
+        self.system.restore(saved)
+        return self._iterate(watch, PROXIMAL)
+
+    def _iterate(self, watch: Callable[[Iteration], None], proximal: float) -> Outcome:
         iterations: list[Iteration] = []
+        try:
+            return self._converge(watch, proximal, iterations)
+        finally:
+            self.system.factors.proximal.Set(0.0)
+
+    def _converge(self, watch: Callable[[Iteration], None], proximal: float, iterations: list[Iteration]) -> Outcome:
         if not self._follow():
             return Outcome((), Result.INVERTED_AMBIENT)
         for number in range(1, self.max_iterations + 1):
+            self.system.factors.proximal.Set(proximal)
+            proximal = proximal * FADING if proximal > GONE else 0.0
             try:
                 update, residual = self._update()
             except LinearSolverError:
@@ -69,7 +93,7 @@ class Newton:
                 return Outcome(tuple(iterations), Result.STEP_BELOW_MINIMUM)
             iterations.append(Iteration(number, update, residual, *self._pressures()))
             watch(iterations[-1])
-            if max(update, residual) < self.tolerance:
+            if max(update, residual) < self.tolerance and proximal == 0.0:
                 return Outcome(tuple(iterations), None)
         return Outcome(tuple(iterations), Result.STEP_BELOW_MINIMUM)
 

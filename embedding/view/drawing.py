@@ -16,7 +16,7 @@ from embedding.view.surface import Surface
 Floats = npt.NDArray[np.float64]
 Limits = tuple[float, float]
 SHELL_COLOURS, FIELD_COLOURS = "YlOrRd", "GnBu"
-EDGE_COLOUR, LINE_COLOUR, OUTLINE_COLOUR = "#22222a", "#24385e", "#6b6b75"
+EDGE_COLOUR, LINE_COLOUR = "#22222a", "#24385e"
 VIEWS = {  # from where, and what is up
     "meridian": ((0.42, -1.0, 0.36), (0.0, 0.0, 1.0)),
     "cross-section": ((0.62, 0.42, 1.0), (0.0, 1.0, 0.0)),
@@ -79,11 +79,10 @@ class Canvas:
             curves = mesh.slice(normal="z", origin=(0, 0, 1e-3 * size))
         else:
             curves = mesh.slice(normal="y", origin=(0, -1e-3 * size, 0)).clip(normal="-x", origin=(0, 0, 0))
-            curves = curves.extract_geometry()
         for curve in curves.strip(join=True, max_length=1 << 20).cell if curves.n_cells else ():
             for dash in _dashes(np.asarray(curve.points, float), DASH * size):
-                tube = self._pyvista.lines_from_points(dash).tube(radius=0.006 * size, n_sides=8)
-                self._plotter.add_mesh(tube, color=OUTLINE_COLOUR, lighting=False)
+                tube = self._pyvista.lines_from_points(dash).tube(radius=0.0045 * size, n_sides=8)
+                self._plotter.add_mesh(tube, color=EDGE_COLOUR, lighting=False)
 
     def section(self, section: Section, limits: Limits, size: float, lines: bool) -> None:
         """Add a plane with the field, and field ``lines``, for a shell of ``size``."""

@@ -66,7 +66,7 @@ def field_lines(raster: Raster, spacing: float) -> list[Floats]:
 def _traced(directions: Floats, start: Floats, sign: int) -> Iterator[Floats]:
     """Follow the field from ``start`` by the midpoint rule until it ends."""
     place = start
-    for _ in range(int(4 * sum(directions.shape[:2]) / STRIDE)):
+    for _ in range(int(2 * sum(directions.shape[:2]) / STRIDE)):
         middle = place + sign * STRIDE / 2 * _interpolated(directions, place)
         step = _interpolated(directions, middle)
         if step @ step < 0.25:
