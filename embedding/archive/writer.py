@@ -163,9 +163,10 @@ class ArchiveWriter:
         _synchronise(file)
 
     def _known(self, file: Any, group: str, name: str) -> Any:
-        if name not in file[group]:
+        dataset = file[group].get(name)
+        if dataset is None:
             raise ArchiveError(f"{self.path}: a step brings {name!r}, which the first step did not have")
-        return file[group][name]
+        return dataset
 
     @contextmanager
     def _open(self, path: Path, mode: str) -> Iterator[Any]:

@@ -30,8 +30,9 @@ def explain(scene: Scene) -> Plan:
 
 def _theory(scene: Scene) -> Decision:
     ratio = scene.shell.thickness / scene.shell.shape.size
-    error = 0.05 * ratio**2
-    reason = f"thickness over size {ratio:.3g}: theory error about {error:.1e} of the stretch; no bending stiffness"
+    reason = (
+        f"thickness over size {ratio:.3g}: loads off by about {0.8 * ratio**2:.1e} of themselves; no bending stiffness"
+    )
     return Decision("shell theory", "membrane", reason)
 
 
@@ -73,7 +74,7 @@ def _interface(scene: Scene) -> tuple[tuple[str, ...], tuple[Decision, ...]]:
         return (), ()
     ratio = scene.shell.thickness / scene.shell.shape.size
     if scene.model.interface == "closed":
-        reason = f"pinned by the scene; first order in the thickness, about {0.2 * ratio:.1e} of the stretch"
+        reason = f"pinned by the scene; first order in the thickness, about {1.6 * ratio:.1e} of the field's load"
         return (), (Decision("interface", "closed", reason),)
     reason = "faces at their true places: second order in the thickness"
     if scene.model.interface == "auto" and _conductor(scene):

@@ -66,7 +66,7 @@ class Run:
                 result, message = self._stage(stage)
                 if not result.ok:
                     break
-            error = estimate_error(self.problem, self.at) if result.ok else None
+            error = estimate_error(self.problem, self.at, self.steps) if result.ok else None
         except KeyboardInterrupt:
             result, message, error = Result.INTERRUPTED, self._told(Result.INTERRUPTED), None
         plan, scales = self.problem.plan, self.problem.scales
