@@ -6,7 +6,7 @@ well, and two Newton steps are taken there: their effect on the answer estimates
 Model: with t the deformed thickness and r the deformed radius, the load that membrane theory gives for a stretch is
 off by up to 0.8 (t/r)^2 of itself, and the load of a field on closed faces by up to 1.6 t/r: bounds of what was
 measured against exact thick spheres and tubes. A relative error of the load becomes one of the stretch through the
-response d ln(stretch) / d ln(load) of the last step.
+response d ln(stretch) / d ln(load) of the last steps.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
 from ngsolve import BND
 
 from embedding.coupling.linear import LinearSolverError
@@ -65,16 +66,19 @@ def _slenderness(problem: Problem, scalars: dict[str, float]) -> float:
 
 
 def _response(steps: Sequence[StepRecord]) -> float:
-    """|d ln(stretch) / d ln(load)| from the last two steps; field forces grow with the square of the field's factor."""
-    last = steps[-1]
-    before = steps[-2] if len(steps) > 1 and steps[-2].stage == last.stage else None
-    start = (before.factor_mechanical, before.factor_field, before.scalars["stretch"]) if before else (0.0, 0.0, 1.0)
-    growth = abs(math.log(last.scalars["stretch"] / start[2]))
-    field = last.factor_field != start[1] and "min_jacobian" in last.scalars
-    power, old, new = (2, start[1], last.factor_field) if field else (1, start[0], last.factor_mechanical)
-    if old <= 0.0 or new == old:
-        return growth
-    return growth / abs(power * math.log(new / old))
+    """|d ln(stretch) / d ln(load)| at the last step, from a parabola through the last three of its stage.
+
+    Field forces grow with the square of the field's factor. A single step is taken to answer linearly.
+    """
+    stage = [step for step in steps if step.stage == steps[-1].stage][-3:]
+    field = "min_jacobian" in stage[-1].scalars and stage[-1].factor_field != stage[0].factor_field
+    factors = [step.factor_field**2 if field else step.factor_mechanical for step in stage]
+    stretches = [math.log(step.scalars["stretch"]) for step in stage]
+    if len(stage) < 2 or min(factors) <= 0.0 or len(set(factors)) < len(stage):
+        return abs(stretches[-1])
+    loads = np.log(factors) - math.log(factors[-1])
+    slope: float = np.polyfit(loads, stretches, len(stage) - 1)[-2]
+    return float(abs(slope))
 
 
 def _enriched_change(problem: Problem, target: Target, quantity: str) -> float | None:

@@ -1,0 +1,75 @@
+"""The error statement against the true error, where an exact thick-walled solution exists."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from embedding import (
+    Ambient,
+    Electrode,
+    Faces,
+    InfiniteCylinder,
+    Loads,
+    Model,
+    NeoHookean,
+    Scene,
+    Shell,
+    Sphere,
+    Stage,
+    solve,
+)
+from embedding.scene import EPSILON_0
+from problems.exact import cylinder, sphere
+from problems.exact.charged_balloon import ChargedBalloon
+from problems.exact.material import neo_hookean
+
+MU = 1e5
+RADIUS = 0.02
+
+
+def shell(shape: Sphere | InfiniteCylinder, ratio: float) -> Shell:
+    return Shell(shape=shape, thickness=ratio * RADIUS, material=NeoHookean(shear_modulus=MU))
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.05, 0.01])
+@pytest.mark.parametrize("interface", ["auto", "closed"])
+def test_charged_balloon(ratio: float, interface: str) -> None:
+    exact = ChargedBalloon(RADIUS, ratio * RADIUS, neo_hookean(MU), EPSILON_0)
+    voltage = math.sqrt(4 * 0.798122427984 * MU * ratio * RADIUS**2 / EPSILON_0)
+    electrode = Electrode(voltage=voltage)
+    scene = Scene(
+        shell=shell(Sphere(radius=RADIUS), ratio),
+        ambient=Ambient(field="electric"),
+        faces=Faces(top=electrode, bottom=electrode),
+        path=(Stage(steps=4),),
+        model=Model(interface=interface),
+    )
+    check(solve(scene), exact.stretch(voltage), "stretch")
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.05, 0.01])
+@pytest.mark.parametrize("stretch", [1.05, 1.5])
+def test_pressurised_tube(ratio: float, stretch: float) -> None:
+    pressure = cylinder.membrane_pressure(stretch, ratio)
+    scene = Scene(
+        shell=shell(InfiniteCylinder(radius=RADIUS), ratio),
+        loads=Loads(pressure_bottom=MU * pressure),
+        path=(Stage(steps=6),),
+    )
+    check(solve(scene), cylinder.thick_stretch(pressure, ratio), "stretch")
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.05, 0.01])
+def test_volume_control_states_the_error_of_the_pressure(ratio: float) -> None:
+    scene = Scene(shell=shell(Sphere(radius=RADIUS), ratio), path=(Stage(steps=2, volume_ratio=1.05**3),))
+    check(solve(scene), MU * sphere.thick_pressure(1.05, ratio), "pressure_difference")
+
+
+def check(solution: object, exact: float, quantity: str) -> None:
+    error = solution.error  # type: ignore[attr-defined]
+    assert error.quantity == quantity
+    assert error.value == pytest.approx(sum(error.parts.values()))
+    true = abs(solution[quantity][-1] - exact) / exact  # type: ignore[index]
+    assert true <= error.value <= 8 * true
