@@ -57,10 +57,15 @@ def error(solution: Solution, theory: Theory = "membrane") -> float:
 def limit_points(solution: Solution) -> tuple[LimitPoint, ...]:
     """Extrema of the pressure along the path, as (stretch, (p_b - p_t) R / (mu T)).
 
-    From a spline of order five through the steps. On the exact curve, sampled at the steps of the scene file, it
-    finds the maximum to 1e-8 in the stretch; a minimum further out, where the steps are wider, to 1e-6.
+    At the steps of the scene file the maximum is located to 1e-7 in the stretch; a minimum further out, where the
+    steps are wider, to 5e-6; the load at either to 1e-8.
     """
-    curve = make_interp_spline(solution["stretch"], pressures(solution), k=5)
+    return extrema(solution["stretch"], pressures(solution))
+
+
+def extrema(stretches: Array, loads: Array) -> tuple[LimitPoint, ...]:
+    """Extrema of the spline of order five through points with increasing stretch."""
+    curve = make_interp_spline(stretches, loads, k=5)
     slope = curve.derivative()
     roots = PPoly.from_spline((slope.t, slope.c, slope.k)).roots(extrapolate=False)
     return tuple(LimitPoint(float(root), float(curve(root))) for root in roots)

@@ -1,0 +1,27 @@
+"""Each problem as a script: it prints what it found beside the reference, and leaves an archive behind."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+
+import pytest
+
+from embedding import open_archive
+from problems import plate_squeeze
+
+FOLDER = Path(plate_squeeze.__file__).parent
+SCRIPTS = ("plate_traction", "plate_squeeze", "cylinder_inflation", "open_tube", "sphere_inflation",
+           "varying_pressure_sphere")  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SCRIPTS)
+def test_script(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.chdir(tmp_path)
+    runpy.run_path(str(FOLDER / f"{name}.py"), run_name="__main__")
+    out = capsys.readouterr().out
+    assert "e-" in out, "an error as a number"
+    assert out.endswith(f"archive: {name}.vtkhdf; a picture of it: embedding plot {name}.vtkhdf\n")
+    archive = open_archive(f"{name}.vtkhdf")
+    assert archive.result.name == "CONVERGED"
+    assert archive.scene_object().name == name
