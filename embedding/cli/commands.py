@@ -55,8 +55,10 @@ def run(
         require_rendering()
 
     from embedding.api import solve
+    from embedding.cli.interrupts import Interrupts
 
-    solution = solve(stated, archive=archive, progress=progress)
+    with Interrupts() as interrupts:
+        solution = solve(stated, archive=archive, progress=progress, listeners=[interrupts])
     if picture is not None:
         from embedding import view
 

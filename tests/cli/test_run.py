@@ -26,12 +26,12 @@ class Solver:
         self.result = "NOT_CONVERGED"
         self.error: BaseException | None = None
 
-    def __call__(self, scene: Any, *, archive: Path | None = None, progress: bool = False) -> Any:
+    def __call__(self, scene: Any, *, archive: Path | None, progress: bool, listeners: list[Any]) -> Any:
         self.calls.append({"scene": scene, "archive": archive, "progress": progress})
         if self.error is not None:
             raise self.error
         with ProgressDisplay() as display:
-            done = play(scene, [display] if progress else [], self.fail_at)
+            done = play(scene, [*listeners, display] if progress else listeners, self.fail_at)
         if self.fail_at is not None:
             outcome = solution(scene, archive, done, self.result)
             raise SolveError("Newton did not converge: take smaller steps", outcome)

@@ -1,0 +1,53 @@
+"""Ctrl-C during a solve: the present Newton iteration is finished first, so that nothing is cut in two.
+
+Python raises KeyboardInterrupt between any two of its instructions, also inside callbacks of the garbage collector,
+where it is lost. Here the first signal is only noted, and raised where the solver tells of an iteration.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+from types import FrameType, TracebackType
+from typing import Any, Self
+
+from embedding.solving.events import Iteration, Listener
+
+
+class Interrupts(Listener):
+    """A listener, and a context manager around the solve, that turns the first Ctrl-C into an orderly end.
+
+    The second one raises KeyboardInterrupt on the spot. Leaving the context raises it as well if the solver gave no
+    occasion before. Works in the main thread, as signals do.
+    """
+
+    def __init__(self) -> None:
+        self._asked = False
+        self._former: Any = None
+
+    def __enter__(self) -> Self:
+        self._former = signal.signal(signal.SIGINT, self._note)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        signal.signal(signal.SIGINT, self._former)
+        if kind is None:
+            self._obey()
+
+    def iterated(self, step_number: int, target: dict[str, float], iteration: Iteration) -> None:
+        """End the solve here if that was asked for."""
+        self._obey()
+
+    def _note(self, number: int, frame: FrameType | None) -> None:
+        if self._asked:
+            raise KeyboardInterrupt
+        self._asked = True
+        if sys.stderr.isatty():
+            print("interrupted: ends after this iteration (again: at once)", file=sys.stderr)
+
+    def _obey(self) -> None:
+        if self._asked:
+            self._asked = False
+            raise KeyboardInterrupt
