@@ -75,7 +75,12 @@ def revolved(points: Floats, values: Floats, lines: Integers, turn: tuple[float,
     angles = np.linspace(begin, end, copies)[:, None]
     radius, height = points[None, :, 0], np.broadcast_to(points[:, 2], (copies, len(points)))
     swept = np.stack([radius * np.cos(angles), radius * np.sin(angles), height], axis=2)
-    return Surface(swept.reshape(-1, 3), _swept(lines, len(points), copies), np.tile(values, copies))
+    swept = swept.reshape(-1, 3)
+    triangles = _swept(lines, len(points), copies)
+    corners = swept[triangles]
+    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    real = area > 1e-9 * area.max()  # on the axis, half of the triangles are points
+    return Surface(swept, triangles[real], np.tile(values, copies))
 
 
 def extruded(points: Floats, values: Floats, lines: Integers, length: float) -> Surface:

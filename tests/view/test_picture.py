@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
+from netgen.occ import OCCGeometry, Pnt, Segment, Wire
+from ngsolve import Mesh
 
 from embedding.archive import Recorder, open_archive
 from embedding.errors import ArchiveError
@@ -120,6 +123,21 @@ def test_a_shell_without_ambient(tmp_path: Path) -> None:
     image = pixels(picture(tmp_path / "run.vtkhdf", tmp_path / "p.png"))
     red, _, blue = image.reshape(-1, 3).T
     assert np.mean(red > blue + 0.2) > 0.1
+
+
+@draws
+def test_a_disc_is_revolved_whole(tmp_path: Path) -> None:
+    problem = Problem("axisymmetric", size=0.8, order=2)
+    wire = Wire([Segment(Pnt(0, 0, 0), Pnt(RADIUS, 0, 0))])
+    problem.mesh = Mesh(OCCGeometry(wire, dim=2).GenerateMesh(maxh=0.3))
+    problem.blocks = {"shell": SimpleNamespace(name="shell", region=problem.mesh.Boundaries(".*"), codim=1)}
+    toml = problem.scene.to_toml().replace('"sphere"', '"disc"')
+    problem.scene = SimpleNamespace(to_toml=lambda: toml, name="disc", discretisation=problem.scene.discretisation)
+    path = tmp_path / "run.vtkhdf"
+    tell(Recorder(path), problem, steps=1)
+    whole = shell_surface(open_archive(path), "stretch", 0, deformed=False)
+    assert measure(whole.points, whole.triangles) == pytest.approx(math.pi * (RADIUS * LENGTH) ** 2, rel=1e-2)
+    picture(path, tmp_path / "p.png")
 
 
 def test_a_history_is_drawn(archive: Path, tmp_path: Path) -> None:
