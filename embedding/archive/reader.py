@@ -26,6 +26,18 @@ from embedding.errors import ArchiveError
 from embedding.scene import Scales, Scene
 from embedding.solving.events import Iteration, StepRecord
 
+__all__ = [
+    "Archive",
+    "ArchivedBlock",
+    "ArchivedCost",
+    "ArchivedDecision",
+    "ArchivedError",
+    "ArchivedPlan",
+    "ArchivedResult",
+    "Newton",
+    "open_archive",
+]
+
 Floats = npt.NDArray[np.float64]
 
 
