@@ -13,7 +13,7 @@ from rich.console import Console
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from embedding.archive.reader import ArchivedCost, ArchivedError
+    from embedding.archive.records import ArchivedCost, ArchivedError
     from embedding.solving.solution import Cost, ErrorEstimate, Solution
 
 NOISE = 1e-12
