@@ -17,6 +17,7 @@ EXTENSIVE = {
     "force_x": "N",
     "force_y": "N",
     "force_z": "N",
+    "held_force": "N",
 }
 
 
