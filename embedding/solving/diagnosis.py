@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import Any
+
 from embedding.coupling.linear import LinearSolverError
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
 from embedding.solving.result import Result
 
 PROBE = 1e-4
-STEEP = 4.0
+STEEP = 5.0
 COMPRESSION = -1e-3
-"""Finite difference of the response, what counts as steep against earlier in the stage, and the smallest principal
+"""Finite difference of the response, how much steeper a limit point is than the landmark, and the smallest principal
 stress, in shear moduli, that still counts as no compression."""
 
 
@@ -35,16 +38,35 @@ def response_rate(problem: Problem, here: Target, towards: Target) -> float:
         system.load(here.mechanical, here.field, here.volume, here.pressure)
 
 
-def diagnose(problem: Problem, reason: Result, here: Target, towards: Target, usual_rate: float) -> Result:
-    """Refine the ``reason`` Newton gave, at the last good state; ``usual_rate`` is the rate earlier in the stage.
+@dataclass(frozen=True)
+class Landmark:
+    """An accepted state about one planned step before the end of the road: saved state, load, fraction of the stage."""
 
-    A limit point comes first: the wild updates beside it may fail in any way, turning the ambient over included.
+    saved: Any
+    target: Target
+    fraction: float
+
+
+def diagnose(
+    problem: Problem, reason: Result, here: Target, end: Target, fraction: float, landmark: Landmark | None
+) -> Result:
+    """Refine the ``reason`` Newton gave at the last good state, ``fraction`` of the way through a stage to ``end``.
+
+    Near a limit point at the load p* the response grows like (p* - p)^(-1/2). The steps were cut down to a tiny part of
+    the planned one, so between the ``landmark`` and here it must have grown manyfold; where Newton fails for another
+    reason it has hardly changed. A limit point comes first: the wild updates beside it may fail in any way, turning the
+    ambient over included.
     """
-    if reason is Result.COMPRESSIVE_MEMBRANE:
+    if reason is Result.COMPRESSIVE_MEMBRANE or end.volume is not None or landmark is None:
         return reason
-    controlled = towards.volume is None and usual_rate > 0
-    if controlled and response_rate(problem, here, towards) > STEEP * usual_rate:
-        moving_field = _has_sources(problem) and towards.field != here.field
+    system = problem.system
+    saved = system.save()
+    system.restore(landmark.saved)
+    before = response_rate(problem, landmark.target, end) / (1 - landmark.fraction)
+    system.restore(saved)
+    now = response_rate(problem, here, end) / (1 - fraction)
+    if now > STEEP * before:
+        moving_field = _has_sources(problem) and end.field != here.field
         return Result.PULL_IN if moving_field else Result.LIMIT_POINT
     return reason
 

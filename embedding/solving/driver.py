@@ -11,7 +11,7 @@ from ngsolve import SetNumThreads, TaskManager
 
 from embedding.plan import explain
 from embedding.scene import Scene, Stage
-from embedding.solving.diagnosis import compressed, diagnose, response_rate
+from embedding.solving.diagnosis import Landmark, compressed, diagnose
 from embedding.solving.estimate import estimate_error
 from embedding.solving.events import Iteration, Listener, StepRecord
 from embedding.solving.newton import Newton
@@ -79,17 +79,17 @@ class Run:
         start = self._stage_start(stage)
         end = stage_target(stage, self._full_difference)
         stepper = Stepper(stage.steps, self.scene.solver.min_step)
-        usual_rate = 0.0
+        landmark: Landmark | None = None
         for fraction in stepper.proposals():
             target = end.between(start, fraction)
             reason = self._try(stage, target)
             if reason is None:
+                if landmark is None or stepper.relative_length >= 0.5:
+                    landmark = Landmark(self.problem.system.save(), target, fraction)
                 stepper.accept()
                 self.at = target
-                if usual_rate == 0.0 and fraction < 1.0 and end.volume is None:
-                    usual_rate = self._rate(start, end, fraction)
             elif not stepper.cut():
-                result = diagnose(self.problem, reason, self.at, end, usual_rate * (1 - stepper.accepted))
+                result = diagnose(self.problem, reason, self.at, end, stepper.accepted, landmark)
                 return result, self._told(result)
             else:
                 for listener in self.listeners:
@@ -105,10 +105,6 @@ class Run:
         if self._full_difference is not None:
             pressure = float(self.problem.system.unknowns.field("pressure").vec[0])
         return Target(self.at.mechanical, self.at.field, None, pressure)
-
-    def _rate(self, start: Target, end: Target, fraction: float) -> float:
-        """Response per unit of the whole stage, measured after its first step."""
-        return response_rate(self.problem, self.at, end) / (1 - fraction) if fraction < 1 else 0.0
 
     def _try(self, stage: Stage, target: Target) -> Result | None:
         system, started = self.problem.system, time.perf_counter()
