@@ -40,7 +40,7 @@ def test_scenes_load(page: Path) -> None:
 @pytest.mark.parametrize("page", PAGES, ids=named)
 def test_links_lead_somewhere(page: Path) -> None:
     text = re.sub(r"```.*?```", "", page.read_text(), flags=re.DOTALL)
-    links = [link.partition("#")[0] for link in re.findall(r"\]\(([^)\s]+)\)", text)]
+    links = [link.partition("#")[0] for link in re.findall(r"(?:\]\(|src=\")([^)\"\s]+)", text)]
     assert [link for link in links if link and ":" not in link and not (page.parent / link).exists()] == []
 
 
