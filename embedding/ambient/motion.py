@@ -34,7 +34,7 @@ from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits, plane_mask, scalar_mask
 
 GUARD = 0.02
-MOST_SUBSTEPS = 64
+MOST_SUBSTEPS = 16
 COMFORTABLE = 0.3
 NOTICEABLE = 1e-3
 OUTDATED = 0.15

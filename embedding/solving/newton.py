@@ -22,6 +22,8 @@ from embedding.solving.result import Result
 
 LARGEST_UPDATE = 0.5
 MOST_HALVINGS = 6
+SHRINKING, STALLED = 0.7, 4
+"""Newton is given up when the best of the last ``STALLED`` updates is above ``SHRINKING`` times the best before."""
 PROXIMAL, FADING, GONE = 0.3, 0.4, 1e-4
 """Proximal stiffness of the first iteration in shear moduli, its factor from one to the next, and where it ends."""
 
@@ -59,25 +61,27 @@ class Newton:
         """Iterate from the present state; the state is only good afterwards if the outcome has no reason.
 
         A membrane ``at_rest`` has no stiffness against bending or, without curvature, against any motion out of its
-        plane. If plain Newton fails from there, a second attempt starts with a proximal term and lets it fade.
+        plane. If plain Newton fails from there, a second attempt starts with a proximal term and lets it fade; plain
+        Newton is given up as soon as its updates stop shrinking.
         """
         if not at_rest:
             return self._iterate(watch, 0.0)
         saved = self.system.save()
-        outcome = self._iterate(watch, 0.0)
-        if outcome.reason is None or outcome.reason is Result.INTERRUPTED:
+        outcome = self._iterate(watch, 0.0, patient=False)
+        if outcome.reason is None:
             return outcome
         self.system.restore(saved)
         return self._iterate(watch, PROXIMAL)
 
-    def _iterate(self, watch: Callable[[Iteration], None], proximal: float) -> Outcome:
-        iterations: list[Iteration] = []
+    def _iterate(self, watch: Callable[[Iteration], None], proximal: float, *, patient: bool = True) -> Outcome:
         try:
-            return self._converge(watch, proximal, iterations)
+            return self._converge(watch, proximal, patient)
         finally:
             self.system.factors.proximal.Set(0.0)
 
-    def _converge(self, watch: Callable[[Iteration], None], proximal: float, iterations: list[Iteration]) -> Outcome:
+    def _converge(self, watch: Callable[[Iteration], None], proximal: float, patient: bool) -> Outcome:
+        iterations: list[Iteration] = []
+        plain: list[float] = []
         if not self._follow():
             return Outcome((), Result.INVERTED_AMBIENT)
         for number in range(1, self.max_iterations + 1):
@@ -95,6 +99,9 @@ class Newton:
             watch(iterations[-1])
             if max(update, residual) < self.tolerance and proximal == 0.0:
                 return Outcome(tuple(iterations), None)
+            plain = plain + [update] if proximal == 0.0 else []
+            if _hopeless(plain, patience=STALLED if patient else 1):
+                break
         return Outcome(tuple(iterations), Result.STEP_BELOW_MINIMUM)
 
     def _update(self) -> tuple[float, float]:
@@ -126,3 +133,10 @@ class Newton:
         moved = self.system.follow()
         self.clock.add("ambient motion", start)
         return moved
+
+
+def _hopeless(updates: list[float], patience: int) -> bool:
+    """Have the last ``patience`` updates brought next to nothing over those before? Never asked of the first two."""
+    if len(updates) < patience + 2:
+        return False
+    return min(updates[-patience:]) > SHRINKING * min(updates[:-patience])
