@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -28,7 +29,10 @@ def test_scripts_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     """The blocks of a page are one script."""
     monkeypatch.chdir(tmp_path)
     script = "\n".join(blocks(page, "python"))
-    exec(compile(script, named(page), "exec"), {"__name__": "page"})
+    names: dict[str, Any] = {"__name__": "page"}
+    exec(compile(script, named(page), "exec"), names)
+    assert names["solution"].result.ok
+    assert names["solution"]["stretch"][-1] == pytest.approx(1.458, abs=2e-3)
 
 
 @pytest.mark.parametrize("page", [page for page in PAGES if blocks(page, "toml")], ids=named)
