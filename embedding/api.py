@@ -40,7 +40,7 @@ def solve(
             recorder = Recorder(archive)
             watching.append(recorder)
         if progress:
-            from embedding.cli.progress import ProgressDisplay
+            from embedding.view.progress import ProgressDisplay
 
             watching.append(stack.enter_context(ProgressDisplay()))
         solution = run(scene, [*watching, *listeners])

@@ -36,7 +36,7 @@ from embedding.geometry.spaces import as_bits, plane_mask, scalar_mask
 GUARD = 0.02
 MOST_SUBSTEPS = 16
 COMFORTABLE = 0.3
-NOTICEABLE = 1e-3
+NOTICEABLE = 2e-2
 OUTDATED = 0.15
 SERVES = 0.3
 """Guard on det F. An older matrix of the extension is good enough while det F is above ``COMFORTABLE``, the face has

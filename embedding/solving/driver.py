@@ -137,7 +137,10 @@ class Run:
 
     def _told(self, result: Result) -> str:
         done = f"after {len(self.steps)} accepted steps" if self.steps else "before the first step was accepted"
-        where = ", ".join(f"{name} {value:.4g}" for name, value in self.at.report().items())
+        load = self.at.report()
+        if self.problem.system.physics.field is None:
+            load.pop("field", None)
+        where = ", ".join(f"{name} {value:.4g}" for name, value in load.items())
         return f"stopped {done} (last good load: {where}): {result.advice}"
 
     def _cost(self) -> Cost:

@@ -1,4 +1,4 @@
-"""Pictures and charts from an archive, drawn without a display."""
+"""What people look at: pictures and charts from an archive, drawn without a display, and the progress of a solve."""
 
 from embedding.view.history import history_plot
 from embedding.view.picture import picture

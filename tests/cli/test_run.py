@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from embedding.cli.progress import ProgressDisplay
 from embedding.errors import SolveError
+from embedding.view.progress import ProgressDisplay
 from tests.cli.conftest import Outcome
 from tests.cli.pretend import play, solution
 
