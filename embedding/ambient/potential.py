@@ -66,7 +66,7 @@ class PotentialSpaces:
         applied: tuple[float, ...],
         odd_planes: tuple[str, ...],
     ) -> None:
-        order = domain.sizes.order
+        order = domain.sizes.potential_order
         self.electrodes = electrodes
         self.phi = H1(domain.mesh, order=order)
         self.jump = (

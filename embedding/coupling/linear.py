@@ -25,8 +25,13 @@ REFINE = 1e-11
 @contextlib.contextmanager
 def silent_stdout() -> Iterator[None]:
     """Keep the C libraries' own words about singular matrices off standard output; errors are reported as errors."""
-    sys.stdout.flush()
-    kept = os.dup(1)
+    try:
+        kept = os.dup(1)
+    except OSError:  # a process without standard output has nothing to keep clean
+        yield
+        return
+    if sys.stdout is not None:
+        sys.stdout.flush()
     nowhere = os.open(os.devnull, os.O_WRONLY)
     try:
         os.dup2(nowhere, 1)
@@ -62,12 +67,13 @@ class DirectSolver:
             return update
         worst = "no solver ran"
         for method in self._methods:
-            try:
-                with silent_stdout():
+            # Only umfpack has words of its own about a singular matrix.
+            with silent_stdout() if method == "umfpack" else contextlib.nullcontext():
+                try:
                     inverse = matrix.Inverse(self.free, inverse=method)
-            except Exception as error:  # NGSolve raises its own untyped exceptions for singular matrices
-                worst = f"{method}: {error}"
-                continue
+                except Exception as error:  # NGSolve raises its own untyped exceptions for singular matrices
+                    worst = f"{method}: {error}"
+                    continue
             remainder = self._refined(matrix, inverse, right_side, update) / scale
             if np.isfinite(remainder) and remainder < ACCURATE:
                 return update

@@ -45,6 +45,15 @@ class MeshSizes:
     grading: float
     order: int
 
+    @property
+    def potential_order(self) -> int:
+        """Order of the potential: one above the shell's.
+
+        The field's energy enters the Lagrangian with a minus sign. At equal order a distorted mesh overestimates it by
+        more than a soft membrane can afford, and creases that do not exist gain energy.
+        """
+        return self.order + 1
+
 
 @dataclass(frozen=True)
 class Domain:

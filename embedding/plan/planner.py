@@ -9,7 +9,7 @@ from embedding.plan.symmetry import choose_reduction, odd_planes
 from embedding.scene import Scene
 
 FAR_RADIUS = 4.0
-SHELL_SIZE = {"3d": 0.3, "axisymmetric": 0.2, "plane-strain": 0.2}
+SHELL_SIZE = {"3d": 0.4, "axisymmetric": 0.2, "plane-strain": 0.2}
 FLAT_SIZE = 0.35
 
 
@@ -109,4 +109,7 @@ def _sizes(scene: Scene, reduction: str) -> tuple[MeshSizes, tuple[Decision, ...
 
 def _order(scene: Scene) -> Decision:
     order = scene.discretisation.order
-    return Decision("order", str(order), "polynomial order of shell, field and geometry alike")
+    reason = "polynomial order of shell and geometry"
+    if scene.ambient is not None:
+        reason += f"; the potential has order {order + 1}, without which a soft membrane creases"
+    return Decision("order", str(order), reason)
