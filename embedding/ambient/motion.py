@@ -1,7 +1,7 @@
 """Motion of the ambient mesh on one side of the shell: it follows the face, and no element turns over.
 
 The face carries its displacement y into the elements that touch it (the shell's own basis functions); the interior
-motion w, piecewise linear, takes up the rest by lowering a hyperelastic energy that is stiff where elements are small.
+motion w, piecewise quadratic, takes up the rest by lowering a hyperelastic energy that is stiff where elements are small.
 Any admissible w gives the same physics up to the discretisation error, so w takes one linearised step whenever the
 face has moved noticeably and rests otherwise: with w at rest Newton's method on shell and field is quadratic. What
 matters is that det F stays positive, and that is measured after every move.
@@ -33,8 +33,10 @@ from ngsolve import (
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits, plane_mask, scalar_mask
 
+INTERIOR_ORDER = 2
 GUARD = 0.02
 MOST_SUBSTEPS = 16
+MOST_RELAXATIONS = 3
 COMFORTABLE = 0.3
 NOTICEABLE = 2e-2
 OUTDATED = 0.15
@@ -49,14 +51,14 @@ class SideMotion:
 
     def __init__(self, domain: Domain, side: str, face: Any) -> None:
         mesh, materials = domain.mesh, domain.materials(side)
-        interior = VectorH1(mesh, order=1, definedon=mesh.Materials(materials))
+        interior = VectorH1(mesh, order=INTERIOR_ORDER, definedon=mesh.Materials(materials))
         self.y, self.w = GridFunction(face), GridFunction(interior)
         self._settled = np.zeros(face.ndof)
         self._assembled_at = np.zeros(face.ndof)
         self._inverse: Any = None
         self._noticeable = NOTICEABLE * domain.sizes.shell
         trial = interior.TrialFunction()
-        rule = {element: IntegrationRule(element, 2) for element in (ET.TET, ET.TRIG)}
+        rule = {element: IntegrationRule(element, 2 * INTERIOR_ORDER) for element in (ET.TET, ET.TRIG)}
         self._form = BilinearForm(interior, symmetric=True)
         strain = _extension_energy(Id(mesh.dim) + Grad(self.y) + Grad(trial))
         self._form += Variation(strain * dx(materials, intrules=rule)).Compile()
@@ -85,14 +87,25 @@ class SideMotion:
         substeps = 1
         while substeps <= MOST_SUBSTEPS:
             self._restore(saved)
-            start = saved[0]
-            fractions = (i / substeps for i in range(1, substeps + 1))
-            if all(self._settle(start + fraction * (target - start)) for fraction in fractions):
+            if self._walk(saved[0], target, substeps):
                 self._settled[:] = target
                 return True
             substeps *= 4
         self._restore(saved)
         return False
+
+    def _walk(self, start: Any, target: Any, substeps: int) -> bool:
+        """Move the face in equal substeps; from the second on the interior starts from its own last move."""
+        interior = self.w.vec.FV().NumPy()
+        last_move = np.zeros_like(interior)
+        for i in range(1, substeps + 1):
+            before = interior.copy()
+            interior += last_move
+            stop = target if i == substeps else start + i / substeps * (target - start)
+            if not self._settle(stop):
+                return False
+            last_move = interior - before
+        return True
 
     def _restore(self, saved: list[Any]) -> None:
         for vector, values in zip(self.vectors(), saved, strict=True):
@@ -112,10 +125,13 @@ class SideMotion:
             if self._relax() < SERVES and self.min_jacobian > COMFORTABLE:
                 return True
             self.w.vec.FV().NumPy()[:] = before
-        self._form.AssembleLinearization(self.w.vec)
-        self._inverse = self._form.mat.Inverse(self._free, inverse="sparsecholesky")
-        self._assembled_at = face.copy()
-        self._relax()
+        for _ in range(MOST_RELAXATIONS):
+            self._form.AssembleLinearization(self.w.vec)
+            self._inverse = self._form.mat.Inverse(self._free, inverse="sparsecholesky")
+            self._assembled_at = face.copy()
+            self._relax()
+            if not np.all(np.isfinite(self.w.vec.FV().NumPy())) or self.min_jacobian > COMFORTABLE:
+                break
         return bool(np.all(np.isfinite(self.w.vec.FV().NumPy()))) and self.min_jacobian > GUARD
 
     def _relax(self) -> float:
@@ -133,11 +149,11 @@ class SideMotion:
 
 
 def _parts(domain: Domain, side: str) -> list[tuple[str, int]]:
-    """Materials of a side with the order of the sampling rule: fine where the face's motion reaches, else centroids."""
+    """Materials of a side with the order of the sampling rule: fine where the motion of the face reaches."""
     near = domain.near(side)
     if near == domain.materials(side):
         return [(near, 2 * domain.sizes.order)]
-    return [(near, 2 * domain.sizes.order)] + ([(side, 1)] if side in _used_materials(domain) else [])
+    return [(near, 2 * domain.sizes.order)] + ([(side, INTERIOR_ORDER)] if side in _used_materials(domain) else [])
 
 
 def _used_materials(domain: Domain) -> set[str]:
