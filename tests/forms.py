@@ -146,7 +146,7 @@ class Taylor:
 
         pairs = list(zip(self.directions, self.curvatures, strict=True))
         remainders = [math.hypot(*(remainder(h, d, c) for d, c in pairs)) for h in self.STEPS]
-        linear = max(remainders) < 1e-13 * max(1.0, float(np.linalg.norm(self.curvatures)))
+        linear = max(remainders) < 1e-12 * max(1.0, float(np.linalg.norm(self.curvatures)))
         return [] if linear else observed_orders(remainders)
 
 

@@ -30,7 +30,7 @@ def _chebyshev(length: float) -> tuple[Array, Array, Array]:
     nodes, gauss = np.polynomial.legendre.leggauss(POINTS)
     powers = np.polynomial.chebyshev.chebvander(2 * x / length - 1, POINTS - 1)
     moments = 0.5 * length * gauss @ np.polynomial.chebyshev.chebvander(nodes, POINTS - 1)
-    weights: Array = np.linalg.solve(powers.T, moments)
+    weights: Array = np.asarray(np.linalg.solve(powers.T, moments), dtype=np.float64)
     return x, derivative, weights
 
 
