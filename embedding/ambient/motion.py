@@ -1,9 +1,9 @@
 """Motion of the ambient mesh on one side of the shell: it follows the face, and no element turns over.
 
 The face carries its displacement y into the elements that touch it (the shell's own basis functions); the interior
-motion w, piecewise quadratic, takes up the rest by lowering a hyperelastic energy that is stiff where elements are small.
-Any admissible w gives the same physics up to the discretisation error, so w takes one linearised step whenever the
-face has moved noticeably and rests otherwise: with w at rest Newton's method on shell and field is quadratic. What
+motion w, piecewise quadratic, takes up the rest by lowering a hyperelastic energy that is stiff where elements are
+small. Any admissible w gives the same physics up to the discretisation error, so w takes one linearised step whenever
+the face has moved noticeably and rests otherwise: with w at rest Newton's method on shell and field is quadratic. What
 matters is that det F stays positive, and that is measured after every move.
 """
 

@@ -13,7 +13,6 @@ from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
-from embedding.cli.output import words
 from embedding.solving.events import Iteration, Listener, StepRecord
 
 if TYPE_CHECKING:
@@ -90,7 +89,7 @@ class ProgressDisplay(Listener):
 
     def finished(self, solution: Solution) -> None:
         """The path has ended."""
-        self._line(f"{words(solution.result.name)}, {self._elapsed()}")
+        self._line(f"{solution.result.words}, {self._elapsed()}")
 
     # What people see.
 
