@@ -41,11 +41,6 @@ class Result(Enum):
         return str(self.value)
 
     @property
-    def words(self) -> str:
-        """The name in plain words."""
-        return self.name.lower().replace("_", " ")
-
-    @property
     def ok(self) -> bool:
         """Did the solve reach the end of its path?"""
         return self is Result.CONVERGED

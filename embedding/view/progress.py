@@ -89,7 +89,7 @@ class ProgressDisplay(Listener):
 
     def finished(self, solution: Solution) -> None:
         """The path has ended."""
-        self._line(f"{solution.result.words}, {self._elapsed()}")
+        self._line(f"{solution.result.name.lower().replace("_", " ")}, {self._elapsed()}")
 
     # What people see.
 
