@@ -89,7 +89,8 @@ class ProgressDisplay(Listener):
 
     def finished(self, solution: Solution) -> None:
         """The path has ended."""
-        self._line(f"{solution.result.name.lower().replace("_", " ")}, {self._elapsed()}")
+        result = solution.result.name.lower().replace("_", " ")
+        self._line(f"{result}, {self._elapsed()}")
 
     # What people see.
 

@@ -12,7 +12,7 @@ from problems import plate_squeeze
 
 FOLDER = Path(plate_squeeze.__file__).parent
 SCRIPTS = ("plate_traction", "plate_squeeze", "cylinder_inflation", "open_tube", "sphere_inflation",
-           "varying_pressure_sphere")  # fmt: skip
+           "varying_pressure_sphere", "charged_balloon", "grounded_balloon", "permeable_sphere")  # fmt: skip
 
 
 @pytest.mark.parametrize("name", SCRIPTS)
