@@ -1,0 +1,84 @@
+"""What the plan chooses, with its reasons, before anything is meshed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from embedding import Scene, explain
+
+SPHERE: dict[str, Any] = {
+    "shape": {"kind": "sphere", "radius": 0.02},
+    "thickness": 1e-3,
+    "material": {"law": "neo-hookean", "shear_modulus": 1e5},
+}
+CHARGED = {"ambient": {"field": "electric"}, "faces": {"top": {"voltage": 1e3}, "bottom": {"voltage": 1e3}}}
+PERMEABLE = {**SPHERE, "relative_permeability": 10.0}
+
+
+def chosen(**changes: Any) -> dict[str, str]:
+    return {decision.topic: decision.choice for decision in plan(**changes).decisions}
+
+
+def plan(**changes: Any) -> Any:
+    return explain(Scene.from_table({"shell": SPHERE, **changes}))
+
+
+def test_what_shares_an_axis_is_axisymmetric() -> None:
+    assert chosen()["dimension"] == "axisymmetric"
+    assert chosen(loads={"body_force": [0.0, 0.0, 1.0]})["dimension"] == "axisymmetric"
+
+
+@pytest.mark.parametrize(
+    ("loads", "dimension"),
+    [
+        ({"body_force": [1.0, 0.0, 0.0]}, "3d, 1/4"),
+        ({"body_force": [1.0, 1.0, 0.0]}, "3d, 1/2"),
+        ({"pressure_top": {"expression": "x"}}, "3d, 1/4"),
+        ({"pressure_top": {"expression": "x**2 + y"}}, "3d, 1/4"),
+        ({"pressure_top": {"expression": "x**2"}}, "3d, 1/8"),
+    ],
+)
+def test_loads_decide_the_mirror_planes(loads: dict[str, Any], dimension: str) -> None:
+    assert chosen(loads=loads)["dimension"] == dimension
+
+
+def test_a_support_of_one_direction_is_not_axisymmetric() -> None:
+    disc = {**SPHERE, "shape": {"kind": "disc", "radius": 0.1}}
+    held = [{"where": "rim", "fix": ["x"]}]
+    assert chosen(shell=disc, supports=held)["dimension"].startswith("3d")
+
+
+def test_an_applied_field_mirrors_the_potential_oddly() -> None:
+    ambient = {"field": "magnetic", "applied_field": [4e4, 0.0, 0.0]}
+    made = plan(shell=PERMEABLE, ambient=ambient)
+    assert made.reduction.planes == ("x", "y", "z")
+    assert made.odd_planes == ("x",)
+    oblique = plan(shell=PERMEABLE, ambient={**ambient, "applied_field": [4e4, 0.0, 1e4]})
+    assert oblique.reduction.planes == ("y",)
+    assert oblique.odd_planes == ()
+
+
+def test_no_field_no_ambient() -> None:
+    assert chosen()["ambient"] == "none"
+    assert plan().sizes.radius == 0.0
+    assert plan(**CHARGED).sizes.radius == 4.0
+
+
+def test_a_conductor_is_opened_where_it_is_felt() -> None:
+    assert plan(**CHARGED).opened == ("t",)
+    assert plan(**CHARGED, model={"interface": "opened"}).opened == ("t", "b")
+    assert plan(**CHARGED, model={"interface": "closed"}).opened == ()
+    assert plan(shell=PERMEABLE, ambient={"field": "magnetic", "applied_field": [0.0, 0.0, 1.0]}).opened == ("t", "b")
+
+
+def test_stated_sizes_are_kept() -> None:
+    sizes = plan(**CHARGED, discretisation={"shell_size": 0.005, "ambient_size": 0.04, "order": 2}).sizes
+    assert (sizes.shell, sizes.far, sizes.order, sizes.potential_order) == (0.25, 2.0, 2, 3)
+
+
+def test_every_decision_has_a_reason() -> None:
+    made = plan(**CHARGED)
+    assert all(decision.reason for decision in made.decisions)
+    assert made.text().count("\n") == len(made.decisions) - 1
