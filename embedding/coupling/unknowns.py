@@ -115,13 +115,13 @@ def free_rigid_motions(domain: Domain, trace: TraceSpace) -> list[Any]:
     """Rigid motions that the supports and mirror planes leave free, as coefficient functions of shape (d,)."""
     motions = domain.reduction.rigid_motions()
     held = ~trace.free
+    if not motions or not held.any():
+        return motions
     field = GridFunction(trace.space)
     columns = []
     for motion in motions:
         field.Set(motion, BND, definedon=domain.shell)
         columns.append(np.array(field.vec.FV().NumPy())[held])
-    if not held.any():
-        return motions
     _, sizes, rows = np.linalg.svd(np.array(columns).T, full_matrices=True)
     rank = int((sizes > 1e-6 * max(1.0, sizes.max(initial=0.0))).sum())
     free = rows[rank:]

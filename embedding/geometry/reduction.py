@@ -96,9 +96,16 @@ class Reduction:
         return out
 
     def rigid_motions(self) -> list[Any]:
-        """Rigid motions the mesh can represent, as coefficient functions of shape (d,)."""
+        """Rigid motions of the whole body that the mesh can represent, as coefficient functions of shape (d,).
+
+        A mirror plane takes away the translation across it and the rotations about the axes that lie in it: seen on the
+        meshed part alone such a motion may satisfy the conditions on the plane, but its mirror image bends the body.
+        """
         if self.name == "axisymmetric":
             return [CF((0, 1))]
+        unit = np.eye(self.dimension)
+        along = [CF(tuple(unit[i])) for i, axis in enumerate(self.axes) if axis not in self.planes]
         if self.name == "plane-strain":
-            return [CF((1, 0)), CF((0, 1)), CF((-y, x))]
-        return [CF((1, 0, 0)), CF((0, 1, 0)), CF((0, 0, 1)), CF((0, -z, y)), CF((z, 0, -x)), CF((-y, x, 0))]
+            return along + ([] if self.planes else [CF((-y, x))])
+        turns = {"x": CF((0, -z, y)), "y": CF((z, 0, -x)), "z": CF((-y, x, 0))}
+        return along + [turn for axis, turn in turns.items() if set(self.planes) <= {axis}]
