@@ -34,6 +34,7 @@ from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits, plane_mask, scalar_mask
 
 INTERIOR_ORDER = 2
+VOLUME_PRICE = {2: 0.3, 3: 0.02}
 GUARD = 0.02
 MOST_SUBSTEPS = 16
 MOST_RELAXATIONS = 3
@@ -184,9 +185,10 @@ def symmetry_components(domain: Domain) -> tuple[int, ...]:
 def _extension_energy(F: Any) -> Any:
     """Isochoric shape change plus a polyconvex price on the volume change, stiffer the smaller the element (h^-3).
 
-    log(J)^2 in place of (J^2 - 1) / 2 - log(J) would lose convexity where elements expand beyond J = e.
+    log(J)^2 in place of (J^2 - 1) / 2 - log(J) would lose convexity where elements expand beyond J = e. Volume is
+    cheap: elements at an inflating face shall grow with it in all directions, not be flattened (prices by measurement).
     """
     dimension = F.dims[0]
     J = Det(F)
     shape = InnerProduct(F, F) * J ** (-2 / dimension) - dimension
-    return specialcf.mesh_size ** (-3) * 0.5 * (shape + J**2 - 1 - 2 * log(J))
+    return specialcf.mesh_size ** (-3) * 0.5 * (shape + VOLUME_PRICE[dimension] * (J**2 - 1 - 2 * log(J)))
