@@ -178,3 +178,9 @@ def test_sides_that_cannot_be_told_apart_are_refused() -> None:
     assert isinstance(pretended.shape, Sphere)
     with pytest.raises(RuntimeError, match="make it finer"):
         _ = pretended.normal
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 4])
+def test_the_geometry_converges_with_its_order(order: int) -> None:
+    errors = [abs(body("octant", size, order).shell_integral(1.0) / (4 * math.pi) - 1) for size in (0.5, 0.25)]
+    assert errors[1] < errors[0] / 2 ** (order + 0.5)
