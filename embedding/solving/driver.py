@@ -33,6 +33,10 @@ def run(scene: Scene, listeners: Sequence[Listener] = ()) -> Solution:
         return Run(scene, listeners).solve()
 
 
+REST = 1e-6
+"""A shell that is stretched by less counts as unstressed."""
+
+
 class Run:
     """One solve in progress."""
 
@@ -116,15 +120,18 @@ class Run:
             for listener in self.listeners:
                 listener.iterated(number, target.report(), iteration)
 
-        outcome = self.newton.solve(watch, at_rest=not self.steps)
+        try:
+            outcome = self.newton.solve(watch, at_rest=self._at_rest)
+        except KeyboardInterrupt:
+            self._go_back(saved)
+            raise
         reason: Result | None = outcome.reason
         scalars: dict[str, float] = {}
         if reason is None:
             scalars = self.state.scalars()
             reason = Result.COMPRESSIVE_MEMBRANE if compressed(self.problem, scalars) else None
         if reason is not None:
-            system.restore(saved)
-            system.load(self.at.mechanical, self.at.field, self.at.volume, self.at.pressure)
+            self._go_back(saved)
             return reason
         record = StepRecord(
             number, stage.name, target.mechanical, target.field, outcome.iterations, scalars,
@@ -134,6 +141,16 @@ class Run:
         for listener in self.listeners:
             listener.accepted(self.state, record)
         return None
+
+    @property
+    def _at_rest(self) -> bool:
+        """Has nothing stretched the shell so far?"""
+        return not self.steps or abs(self.steps[-1].scalars["stretch_max"] - 1.0) < REST
+
+    def _go_back(self, saved: Any) -> None:
+        """Return to the last good state and its load."""
+        self.problem.system.restore(saved)
+        self.problem.system.load(self.at.mechanical, self.at.field, self.at.volume, self.at.pressure)
 
     def _told(self, result: Result) -> str:
         done = f"after {len(self.steps)} accepted steps" if self.steps else "before the first step was accepted"
