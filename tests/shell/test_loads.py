@@ -168,6 +168,24 @@ def test_all_reductions_agree(shape: str, variant: Variant) -> None:
     assert works[1] == pytest.approx(works[0], rel=1e-5)
 
 
+@pytest.mark.parametrize("variant", VARIANTS)
+@pytest.mark.parametrize("name", CLOSED)
+def test_work_of_an_inflation(name: str, variant: Variant) -> None:
+    """Closed shells scaled by c, virtual motion X: (p_t - p_b) c^(k - 1) A, k = 3 or in the plane 2; as published also
+
+    - T pbar (k - 1) (1 / c - 1) A, from the surface divergence (k - 1) / c and twice the reference curvature, 1 - k.
+    """
+    domain, c, thickness, top, bottom = body(name, size=0.3, order=3), 1.4, 0.1, 0.5, 0.9
+    place = domain.reduction.position
+    loads = replace(NONE, pressure_top=CF(top), pressure_bottom=CF(bottom), variant=variant)
+    work = shell_work(domain, loads, thickness, (c - 1) * place, place)
+    k, area = (2, 2 * math.pi) if "ring" in name else (3, 4 * math.pi)
+    expected = (top - bottom) * c ** (k - 1) * area
+    if variant == "as-published":
+        expected -= thickness * 0.5 * (top + bottom) * (k - 1) * (1 / c - 1) * area
+    assert work == pytest.approx(expected, rel=1e-4)
+
+
 @pytest.mark.parametrize("name", FLAT)
 def test_a_free_rim_is_what_a_pressed_rim_is_not(name: str) -> None:
     """The rim term: free minus pressed is - T pbar times the rim's stretch outwards, here uniform by a factor c.
