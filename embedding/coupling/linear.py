@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from embedding.errors import EmbeddingError
-from embedding.geometry.spaces import as_mask
+from embedding.geometry.spaces import Mask, as_bits, as_mask
 
 ACCURATE = 1e-8
 REFINE = 1e-11
@@ -47,48 +47,75 @@ class LinearSolverError(EmbeddingError):
 
 
 class DirectSolver:
-    """Solves for the free unknowns of one system again and again."""
+    """Factors a matrix for its free unknowns and solves with it again and again.
 
-    def __init__(self, free: Any, *, symmetric: bool) -> None:
-        self.free = free
+    Unknowns that a form has condensed out (``form.condense``) are eliminated element by element before and recovered
+    after; they are always free.
+    """
+
+    def __init__(self, free: Any, *, symmetric: bool, condensed: Mask | None = None) -> None:
         self.mask = as_mask(free)
+        self._condensed = condensed is not None
+        self._kept = self.mask if condensed is None else self.mask & ~condensed
+        self.free = free if condensed is None else as_bits(self._kept)
         self._methods = ["sparsecholesky", "umfpack"] if symmetric else ["umfpack"]
+        self._form: Any = None
+        self._inverse: Any = None
+        self._method = ""
 
-    def solve(self, matrix: Any, right_side: Any) -> Any:
-        """The update vector, zero on the unknowns that are not free.
+    def factor(self, form: Any) -> None:
+        """Take the assembled matrix of ``form``; it is factored when the first right side comes."""
+        self._form, self._inverse, self._method = form, None, ""
+
+    def solve(self, right_side: Any) -> Any:
+        """The update vector for ``right_side`` (left as it is), zero on the unknowns that are not free.
 
         Raises:
             LinearSolverError: no solver reached a relative residual of 1e-8.
         """
-        update = right_side.CreateVector()
+        load = right_side.CreateVector()
+        load.data = right_side
+        if self._condensed:
+            load.data += self._form.harmonic_extension_trans * load
+        update = self._kept_part(load)
+        if self._condensed:
+            update.data += self._form.harmonic_extension * update
+            update.data += self._form.inner_solve * load
+        return update
+
+    def _kept_part(self, load: Any) -> Any:
+        update = load.CreateVector()
         update[:] = 0.0
-        scale = float(np.linalg.norm(right_side.FV().NumPy()[self.mask]))
+        scale = float(np.linalg.norm(load.FV().NumPy()[self._kept]))
         if scale == 0.0:
             return update
         worst = "no solver ran"
-        for method in self._methods:
+        for method in self._methods[self._methods.index(self._method) if self._method else 0 :]:
             # Only umfpack has words of its own about a singular matrix.
             with silent_stdout() if method == "umfpack" else contextlib.nullcontext():
                 try:
-                    inverse = matrix.Inverse(self.free, inverse=method)
+                    if method != self._method:
+                        self._inverse = self._form.mat.Inverse(self.free, inverse=method)
+                        self._method = method
                 except Exception as error:  # NGSolve raises its own untyped exceptions for singular matrices
                     worst = f"{method}: {error}"
                     continue
-            remainder = self._refined(matrix, inverse, right_side, update) / scale
+            remainder = self._refined(load, update) / scale
             if np.isfinite(remainder) and remainder < ACCURATE:
                 return update
             worst = f"{method}: relative residual {remainder:.1e}"
+        self._method = ""
         raise LinearSolverError(f"the linear system could not be solved ({worst})")
 
-    def _refined(self, matrix: Any, inverse: Any, right_side: Any, update: Any) -> float:
+    def _refined(self, load: Any, update: Any) -> float:
         """Solve, with one step of iterative refinement if the residual asks for it; returns the residual's norm."""
-        residual = right_side.CreateVector()
-        update.data = inverse * right_side
-        norm = float("inf")
+        residual = load.CreateVector()
+        update.data = self._inverse * load
+        goal, norm = REFINE * float(np.linalg.norm(load.FV().NumPy()[self._kept])), float("inf")
         for attempt in range(2):
-            residual.data = right_side - matrix * update
-            norm = float(np.linalg.norm(residual.FV().NumPy()[self.mask]))
-            if attempt or norm < REFINE * float(np.linalg.norm(right_side.FV().NumPy()[self.mask])):
+            residual.data = load - self._form.mat * update
+            norm = float(np.linalg.norm(residual.FV().NumPy()[self._kept]))
+            if attempt or norm < goal:
                 break
-            update.data += inverse * residual
+            update.data += self._inverse * residual
         return norm

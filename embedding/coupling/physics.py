@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from embedding.ambient.potential import Electrodes
+from embedding.geometry.places import Place
 from embedding.shell.laws import Law
 from embedding.shell.loads import MechanicalLoads
 
@@ -27,16 +28,20 @@ class FieldPhysics:
 class Physics:
     """The shell, its loads and supports, and the field around it; lengths in shell sizes, stresses in shear moduli.
 
-    ``supports`` lists (where, component) pairs held at zero; ``opened`` names the faces
-    ("t", "b") that are placed at their true positions; the others count as lying at the mid-surface.
+    ``supports`` lists the (where, component) pairs that are held, ``prescribed`` those of them that are held at a
+    displacement, its third entry; where is an edge, "surface" or a point in mesh coordinates. ``clamped`` names the
+    edges about which the shell cannot turn. ``opened`` names the faces ("t", "b") that are placed at their true
+    positions; the others count as lying at the mid-surface.
     """
 
     law: Law
     thickness: float
     loads: MechanicalLoads
-    supports: tuple[tuple[str, int], ...]
+    supports: tuple[tuple[Place, int], ...]
     axial_free: bool
     axial_stretch: float
     volume_controlled: bool
     opened: tuple[str, ...]
     field: FieldPhysics | None
+    prescribed: tuple[tuple[Place, int, float], ...] = ()
+    clamped: tuple[str, ...] = ()

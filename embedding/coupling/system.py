@@ -39,7 +39,6 @@ class System:
         self.place_faces()
         self._held: tuple[str, ...] = ()
         self._solver = DirectSolver(self.unknowns.free(), symmetric=self.symmetric)
-        self._residual = self.unknowns.state.vec.CreateVector()
 
     def place_faces(self) -> None:
         """Put the opened faces where the present displacement of the mid-surface has them."""
@@ -82,20 +81,43 @@ class System:
         face_of = {side: self.lagrangian.face(face) for face, side in SIDES.items()}
         return all(motion.follow(self.unknowns.field(face_of[side]).vec) for side, motion in self.motions.items())
 
+    def residual(self) -> Any:
+        """Internal minus external forces at the present state and load, a new vector."""
+        residual = self.unknowns.state.vec.CreateVector()
+        self.form.Apply(self.unknowns.state.vec, residual)
+        return residual
+
+    def linearise(self) -> None:
+        """Assemble the tangent at the present state and load, for :meth:`solve`."""
+        self.form.AssembleLinearization(self.unknowns.state.vec)
+        self._solver.factor(self.form)
+
+    def solve(self, right_side: Any) -> Any:
+        """Solve with the tangent of the last :meth:`linearise`.
+
+        Raises:
+            LinearSolverError: the tangent is singular.
+        """
+        return self._solver.solve(right_side)
+
     def newton_update(self) -> tuple[Any, float]:
         """Solve the linearised joint system; returns the step to add and its decrement.
 
-        The decrement is sqrt(|r . step| / (T A)), an energy norm per shear modulus and shell volume.
+        Raises:
+            LinearSolverError: the tangent is singular.
         """
-        vector = self.unknowns.state.vec
-        self.form.Apply(vector, self._residual)
-        self.form.AssembleLinearization(vector)
-        step = self._solver.solve(self.form.mat, self._residual)
+        residual = self.residual()
+        self.linearise()
+        step = self.solve(residual)
         step *= -1.0
+        return step, self.decrement(residual, step)
+
+    def decrement(self, residual: Any, step: Any) -> float:
+        """sqrt(|residual . step| / (T A)): an energy norm per shear modulus and shell volume."""
         mask = self._solver.mask
-        work = float(np.dot(self._residual.FV().NumPy()[mask], step.FV().NumPy()[mask]))
+        work = float(np.dot(residual.FV().NumPy()[mask], step.FV().NumPy()[mask]))
         size = self.physics.thickness * self.domain.shell_integral(1.0)
-        return step, float(np.sqrt(abs(work) / size))
+        return float(np.sqrt(abs(work) / size))
 
     @property
     def symmetric(self) -> bool:
@@ -169,7 +191,8 @@ class PotentialSolve:
         residual = state.vec.CreateVector()
         self.form.Apply(state.vec, residual)
         self.form.AssembleLinearization(state.vec)
-        state.vec.data -= self._solver.solve(self.form.mat, residual)
+        self._solver.factor(self.form)
+        state.vec.data -= self._solver.solve(residual)
         for name, component in zip(self._names, state.components, strict=True):
             self._unknowns.field(name).vec.data = component.vec
 

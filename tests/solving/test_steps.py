@@ -198,10 +198,10 @@ def test_a_linear_solver_that_fails_is_named(monkeypatch: pytest.MonkeyPatch) ->
     solve = DirectSolver.solve
     diary = Diary()
 
-    def fails(self: DirectSolver, matrix: Any, right_side: Any) -> Any:
+    def fails(self: DirectSolver, right_side: Any) -> Any:
         if diary.records:
             raise LinearSolverError("the linear system could not be solved (a test)")
-        return solve(self, matrix, right_side)
+        return solve(self, right_side)
 
     monkeypatch.setattr(DirectSolver, "solve", fails)
     solution = run(balloon(Stage(steps=3), solver=Solver(min_step=0.3)), [diary])
