@@ -7,6 +7,7 @@ describe a surface field; the same basis functions, read in the volume, extend i
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -83,6 +84,10 @@ class TraceSpace:
     def fix(self, component: int, mask: Mask) -> None:
         """Hold ``component`` on the unknowns of ``mask`` (length: unknowns of the scalar space)."""
         self._fixed[component] |= mask
+
+    def in_block(self, dofs: Sequence[int]) -> npt.NDArray[np.int64]:
+        """Where unknowns of the scalar space that lie on the shell stand within the block of one component."""
+        return (np.cumsum(self._on_shell) - 1)[list(dofs)]
 
     @property
     def free(self) -> Mask:
