@@ -1,8 +1,8 @@
 """The meshed scene: the shell's mid-surface, alone or as an interface inside the ambient, with its sides settled.
 
-"Top" is the side the shell's normal points to: the outside of a closed shell, +z of a plate or disc. NGSolve's own
-normals follow the order of materials or the direction of an OCC edge, so the sign is measured on every boundary
-element and owned here; a mesh on which it cannot be settled is refused.
+"Top" is the side the shell's normal points to, see ``sides``. NGSolve's own normals follow the order of materials or
+the direction of an OCC edge, so the sign is measured on every boundary element and owned here; a mesh on which it
+cannot be settled is refused.
 """
 
 from __future__ import annotations
@@ -28,31 +28,12 @@ from ngsolve import (
     dx,
 )
 
-from embedding.geometry import surface, surroundings
+from embedding.geometry import curvature, meshing
+from embedding.geometry.facets import Facets, Mask
 from embedding.geometry.reduction import Reduction
-from embedding.scene import Disc, InfiniteCylinder, Plate, Sphere
-
-Shape = Plate | Disc | Sphere | InfiniteCylinder
-
-
-@dataclass(frozen=True)
-class MeshSizes:
-    """Dimensionless mesh request: sizes on the shell and far away, the ambient's radius (0: no ambient), grading."""
-
-    shell: float
-    far: float
-    radius: float
-    grading: float
-    order: int
-
-    @property
-    def potential_order(self) -> int:
-        """Order of the potential: one above the shell's.
-
-        The field's energy enters the Lagrangian with a minus sign. At equal order a distorted mesh overestimates it by
-        more than a soft membrane can afford, and creases that do not exist gain energy.
-        """
-        return self.order + 1
+from embedding.geometry.sides import signs
+from embedding.geometry.sizes import MeshSizes as MeshSizes
+from embedding.scene import Shape as Shape
 
 
 @dataclass(frozen=True)
@@ -72,17 +53,45 @@ class Domain:
     @property
     def closed(self) -> bool:
         """Does the shell enclose a volume?"""
-        return isinstance(self.shape, Sphere | InfiniteCylinder)
+        return self.shape.closed
 
     @property
-    def mean_curvature(self) -> float:
+    def is_flat(self) -> bool:
+        """Does the reference mid-surface lie in one plane?"""
+        return isinstance(self.shape, curvature.FLAT) and self.shape.kind != "t-section"
+
+    @property
+    def curvature_radius(self) -> float:
+        """Smallest radius of curvature of the reference mid-surface, dimensionless; infinite without any curvature."""
+        radius = self.shape.curvature_radius
+        return float("inf") if radius is None else radius / self.shape.size
+
+    @property
+    def mean_curvature(self) -> Any:
         """H of the reference mid-surface, with H = -1/R on a sphere whose normal points outwards."""
-        return {"sphere": -1.0, "infinite-cylinder": -0.5}.get(self.shape.kind, 0.0)
+        return curvature.mean_curvature(self.shape, self.reduction, self.sign)
 
-    @property
+    @cached_property
+    def facets(self) -> Facets:
+        """How the elements of the mid-surface hang together."""
+        return Facets(self.mesh, self.shell)
+
+    @cached_property
     def rims(self) -> tuple[str, ...]:
-        """Names of the shell's true edges (mirror planes and the axis are not edges)."""
-        return {"plate": ("x0", "x1", "y0", "y1"), "disc": ("rim",)}.get(self.shape.kind, ())
+        """Names of the shell's true edges, of one element each (mirror planes and the axis are not edges)."""
+        single = self.facets.neighbours == 1
+        names = [name for name in dict.fromkeys(self.mesh.GetBBoundaries()) if name in self.shape.edges]
+        return tuple(name for name in names if np.any(single & self.facets.named(name)))
+
+    @cached_property
+    def junctions(self) -> Mask:
+        """Facets of the mesh (edges in 3D, vertices in two dimensions) in which three or more elements meet."""
+        return self.facets.neighbours > 2
+
+    @cached_property
+    def kinks(self) -> Mask:
+        """Facets of the mesh across which the reference normal jumps; junctions are not among them."""
+        return self.facets.kinks(self.normal)
 
     def materials(self, side: str) -> str:
         """Pattern of the materials on ``side`` ("outside" or "inside")."""
@@ -99,29 +108,20 @@ class Domain:
         return self.mesh.Boundaries("shell")
 
     @cached_property
+    def sign(self) -> Any:
+        """+1 or -1, one number or one for each element: times it, the mesh's own normal points to the top side."""
+        sign = signs(self.facets, self.shape, self.reduction)
+        if np.all(sign == sign[0]):
+            return float(sign[0])
+        field = GridFunction(SurfaceL2(self.mesh, order=0, definedon=self.shell))
+        for number, value in zip(self.facets.numbers, sign, strict=True):
+            field.vec[field.space.GetDofNrs(ElementId(BND, int(number)))[0]] = float(value)
+        return field
+
+    @cached_property
     def normal(self) -> Any:
         """Reference unit normal N of the mid-surface, towards the top side."""
-        centre = IntegrationRule([(1 / 3, 1 / 3)], [0.5]) if self.mesh.dim == 3 else IntegrationRule([(0.5,)], [1.0])
-        points = self.mesh.MapToAllElements(centre, self.shell)
-        up = self._up(np.asarray(self.reduction.position(points)))
-        alignment = np.einsum("ij,ij->i", np.asarray(self.reduction.normal(points)), up)
-        if np.abs(alignment).min() < 0.1:
-            raise RuntimeError("the shell's sides cannot be told apart on this mesh: make it finer on the shell")
-        signs = np.sign(alignment)
-        if np.all(signs == signs[0]):
-            return float(signs[0]) * self.reduction.normal
-        field = GridFunction(SurfaceL2(self.mesh, order=0, definedon=self.shell))
-        for sign, point in zip(signs, points, strict=True):
-            field.vec[field.space.GetDofNrs(ElementId(BND, int(point["nr"])))[0]] = float(sign)
-        return field * self.reduction.normal
-
-    def _up(self, positions: Any) -> Any:
-        """A vector field that points to the top side, at mesh ``positions`` of shape (n, d)."""
-        if self.closed:
-            return positions
-        up = np.zeros_like(positions)
-        up[:, -1] = 1.0
-        return up
+        return self.sign * self.reduction.normal
 
     def volume(self, materials: str) -> Any:
         """The volume integral over ``materials``, with the quadrature every form of the field shares.
@@ -160,22 +160,10 @@ class Domain:
 def build(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Domain:
     """Mesh ``shape`` in ``reduction`` at the requested ``sizes`` and curve the mesh to the order of the fields.
 
-    A plate is scaled to a larger side of 1, every other shape to radius 1.
+    Lengths are divided by the size of the shape.
     """
-    mesh = _mesh(shape, reduction, sizes)
+    mesh = meshing.mesh(shape, reduction, sizes)
     mesh.Curve(sizes.order)
     domain = Domain(mesh, reduction, shape, sizes)
     _ = domain.normal
     return domain
-
-
-def _mesh(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Mesh:
-    if sizes.radius:
-        make = surroundings.sphere_in_ball if isinstance(shape, Sphere) else surroundings.ring_in_disc
-        return make(reduction, sizes.radius, sizes.shell, sizes.far, sizes.grading)
-    if isinstance(shape, Plate):
-        scale = max(shape.length, shape.width)
-        return surface.plate(shape.length / scale, shape.width / scale, sizes.shell)
-    if isinstance(shape, Disc):
-        return surface.disc(reduction, sizes.shell)
-    return surface.sphere(reduction, sizes.shell) if isinstance(shape, Sphere) else surface.ring(reduction, sizes.shell)

@@ -1,6 +1,7 @@
 """Meshes of the mid-surface alone, for scenes without a field: nothing around the shell is meshed.
 
 Lengths are dimensionless. Edges of the shape carry its own names, edges on mirror planes ``symmetry_x`` and so on.
+Curves, which stand for surfaces in the reductions, have named ends instead; ``axis`` is an end on the axis.
 """
 
 from __future__ import annotations
@@ -10,16 +11,21 @@ from collections.abc import Callable
 from typing import Any
 
 from netgen.meshing import MeshingStep
-from netgen.occ import ArcOfCircle, Box, Edge, OCCGeometry, Pnt, Segment, Wire, WorkPlane
+from netgen.occ import ArcOfCircle, Axes, Box, Edge, Face, OCCGeometry, Pnt, Segment, Wire, WorkPlane
+from netgen.occ import Ellipsoid as EllipsoidSolid
 from netgen.occ import Sphere as SphereSolid
 from ngsolve import Mesh
 
 from embedding.geometry.reduction import Reduction
+from embedding.geometry.sizes import MeshSizes
 
 CLOSE = 1e-6
+SEAM = "seam"
+"""Name of edges that only join faces of one smooth surface."""
+Names = Callable[[Edge], str | None]
 
 
-def plate(length: float, width: float, size: float) -> Mesh:
+def plate(length: float, width: float, sizes: MeshSizes) -> Mesh:
     """Rectangle [0, length] x [0, width] in z = 0 with edges x0, x1, y0, y1; normal +z."""
     face = WorkPlane().Rectangle(length, width).Face()
 
@@ -29,39 +35,67 @@ def plate(length: float, width: float, size: float) -> Mesh:
             return "x0" if abs(middle.x) < CLOSE else "x1"
         return "y0" if abs(middle.y) < CLOSE else "y1"
 
-    return _surface(face, name, size)
+    return surface_mesh(face, name, sizes)
 
 
-def disc(reduction: Reduction, size: float) -> Mesh:
+def disc(reduction: Reduction, sizes: MeshSizes) -> Mesh:
     """Unit disc in z = 0, or its radius in axisymmetry; edge ``rim``, normal +z."""
     if reduction.name == "axisymmetric":
         edge = Segment(Pnt(0, 0, 0), Pnt(1, 0, 0))
-        return _curve([edge], lambda p: "axis" if p.x < CLOSE else "rim", size)
+        return curve_mesh([edge], lambda p: "axis" if p.x < CLOSE else "rim", sizes)
     face = _halved(WorkPlane().Circle(0, 0, 1).Face(), reduction.planes)
-    return _surface(face, lambda edge: _on_plane(edge, reduction.planes) or "rim", size)
+    return surface_mesh(face, lambda edge: on_plane(edge, reduction.planes) or "rim", sizes)
 
 
-def sphere(reduction: Reduction, size: float) -> Mesh:
+def sphere(reduction: Reduction, sizes: MeshSizes) -> Mesh:
     """Unit sphere (or the part between the mirror planes), or its meridian in axisymmetry."""
     if reduction.name == "axisymmetric":
         arc = ArcOfCircle(Pnt(0, -1, 0), Pnt(1, 0, 0), Pnt(0, 1, 0))
-        return _curve([arc], lambda p: "axis", size)
+        return curve_mesh([arc], lambda p: "axis", sizes)
     ball = _halved(SphereSolid(Pnt(0, 0, 0), 1.0), reduction.planes)
-    face = next(f for f in ball.faces if not _flat_on_plane(f, reduction.planes))
-    return _surface(face, None, size)
+    return surface_mesh(_curved_face(ball, reduction), lambda edge: on_plane(edge, reduction.planes) or SEAM, sizes)
 
 
-def ring(reduction: Reduction, size: float) -> Mesh:
+def ellipsoid(semi_axes: tuple[float, float, float], reduction: Reduction, sizes: MeshSizes) -> Mesh:
+    """Ellipsoid with the semi-axes along x, y and z, or its meridian in axisymmetry (the first two are equal)."""
+    if reduction.name == "axisymmetric":
+        across, along = semi_axes[0], semi_axes[2]
+        frame, radii = Axes((0, 0, 0)), (across, along)
+        if along > across:  # the major axis comes first and lies along the x of the frame
+            frame, radii = Axes((0, 0, 0), h=(0, 1, 0)), (along, across)
+        half = WorkPlane(frame).Ellipse(*radii).Face() * WorkPlane().MoveTo(0, -2).Rectangle(2, 4).Face()
+        arcs = [edge for edge in half.edges if abs(edge.center.x) > CLOSE]
+        return curve_mesh(arcs, lambda p: "axis" if p.x < CLOSE else SEAM, sizes)
+    a, b, c = semi_axes
+    frame = Axes((0, 0, 0), n=(0, 0, 1), h=(1, 0, 0))
+    solid = _halved(EllipsoidSolid(frame, c, a, b), reduction.planes)  # the first radius lies along n
+    return surface_mesh(_curved_face(solid, reduction), lambda edge: on_plane(edge, reduction.planes) or SEAM, sizes)
+
+
+def ring(reduction: Reduction, sizes: MeshSizes) -> Mesh:
     """Cross-section of a unit cylinder: a circle, or the quarter between the mirror planes x and y."""
     if reduction.planes:
         half = math.sqrt(0.5)
         arcs = [ArcOfCircle(Pnt(1, 0, 0), Pnt(half, half, 0), Pnt(0, 1, 0))]
-        return _curve(arcs, lambda p: "symmetry_x" if p.x < CLOSE else "symmetry_y", size)
+        return curve_mesh(arcs, lambda p: "symmetry_x" if p.x < CLOSE else "symmetry_y", sizes)
     arcs = [
         ArcOfCircle(Pnt(1, 0, 0), Pnt(0, 1, 0), Pnt(-1, 0, 0)),
         ArcOfCircle(Pnt(-1, 0, 0), Pnt(0, -1, 0), Pnt(1, 0, 0)),
     ]
-    return _curve(arcs, lambda p: "seam", size)
+    return curve_mesh(arcs, lambda p: SEAM, sizes)
+
+
+def strip(sizes: MeshSizes) -> Mesh:
+    """The segment from 0 to 1 on the x axis, with ends x0 and x1."""
+    edge = Segment(Pnt(0, 0, 0), Pnt(1, 0, 0))
+    return curve_mesh([edge], lambda p: "x0" if p.x < 0.5 else "x1", sizes)
+
+
+def arch(radius: float, half_angle: float, sizes: MeshSizes) -> Mesh:
+    """The arc within ``half_angle`` of the y axis around the origin, with ends end0 (negative x) and end1."""
+    x, y = radius * math.sin(half_angle), radius * math.cos(half_angle)
+    arc = ArcOfCircle(Pnt(-x, y, 0), Pnt(0, radius, 0), Pnt(x, y, 0))
+    return curve_mesh([arc], lambda p: "end0" if p.x < 0 else "end1", sizes)
 
 
 def positive_box(planes: tuple[str, ...], reach: float) -> Any:
@@ -70,15 +104,8 @@ def positive_box(planes: tuple[str, ...], reach: float) -> Any:
     return Box(Pnt(*low), Pnt(reach, reach, reach))
 
 
-def _halved(shape: Any, planes: tuple[str, ...]) -> Any:
-    return shape * positive_box(planes, 2.0) if planes else shape
-
-
-def _flat_on_plane(face: Any, planes: tuple[str, ...]) -> bool:
-    return any(abs(getattr(face.center, axis)) < CLOSE for axis in planes)
-
-
-def _on_plane(edge: Edge, planes: tuple[str, ...]) -> str | None:
+def on_plane(edge: Edge, planes: tuple[str, ...]) -> str | None:
+    """``symmetry_x`` and so on for an edge that lies on one of the coordinate ``planes``, else None."""
     points = [edge.start, edge.end, edge.center]
     for axis in planes:
         if all(abs(getattr(p, axis)) < CLOSE for p in points):
@@ -86,19 +113,44 @@ def _on_plane(edge: Edge, planes: tuple[str, ...]) -> str | None:
     return None
 
 
-def _surface(face: Any, name: Callable[[Edge], str] | None, size: float) -> Mesh:
-    face.faces.name = "shell"
-    # A sphere has degenerate edges at its poles, which must not be asked for their place: it is never named.
-    if name is not None:
-        for edge in face.edges:
-            edge.name = name(edge)
-    mesh = OCCGeometry(face).GenerateMesh(maxh=size, perfstepsend=MeshingStep.MESHSURFACE)
-    return Mesh(mesh)
+def real(edge: Edge) -> bool:
+    """Has the edge a length? Poles of curved faces are edges without one, which must not be asked for their place."""
+    return bool(edge.mass > CLOSE)
 
 
-def _curve(edges: list[Edge], name: Callable[[Pnt], str], size: float) -> Mesh:
+def surface_mesh(shape: Any, name: Names, sizes: MeshSizes) -> Mesh:
+    """Mesh of all faces of an OCC ``shape`` as ``shell``, with its edges named and sized by ``name``.
+
+    An edge for which ``name`` answers None keeps the name it has.
+    """
+    for face in shape.faces:
+        face.name = "shell"
+    for edge in filter(real, shape.edges):
+        edge.name = name(edge) or edge.name
+        if edge.name:
+            edge.maxh = sizes.along(edge.name)
+    made = OCCGeometry(shape).GenerateMesh(
+        maxh=sizes.shell, grading=sizes.grading, perfstepsend=MeshingStep.MESHSURFACE
+    )
+    return Mesh(made)
+
+
+def curve_mesh(edges: list[Edge], name: Callable[[Pnt], str], sizes: MeshSizes) -> Mesh:
+    """Mesh of connected OCC ``edges`` in the plane as ``shell``, with the ends of the edges named by ``name``."""
     wire = Wire(edges)
     wire.edges.name = "shell"
     for vertex in wire.vertices:
         vertex.name = name(vertex.p)
-    return Mesh(OCCGeometry(wire, dim=2).GenerateMesh(maxh=size))
+        if vertex.name in dict(sizes.edges):
+            vertex.maxh = sizes.along(vertex.name)
+    return Mesh(OCCGeometry(wire, dim=2).GenerateMesh(maxh=sizes.shell, grading=sizes.grading))
+
+
+def _halved(shape: Any, planes: tuple[str, ...]) -> Any:
+    return shape * positive_box(planes, 2.0) if planes else shape
+
+
+def _curved_face(solid: Any, reduction: Reduction) -> Face:
+    """The one face of a solid that does not lie on a mirror plane."""
+    flat = (any(abs(getattr(face.center, axis)) < CLOSE for axis in reduction.planes) for face in solid.faces)
+    return next(face for face, is_flat in zip(solid.faces, flat, strict=True) if not is_flat)

@@ -9,7 +9,24 @@ from embedding.scene.options import Discretisation, Model, Solver
 from embedding.scene.path import Stage
 from embedding.scene.scales import EPSILON_0, MU_0, Scales
 from embedding.scene.scene import Scene
-from embedding.scene.shapes import Disc, InfiniteCylinder, Plate, Sphere
+from embedding.scene.shapes import (
+    Annulus,
+    Arch,
+    Cap,
+    Cone,
+    Cylinder,
+    Disc,
+    Ellipsoid,
+    Hemisphere,
+    InfiniteCylinder,
+    Plate,
+    Shape,
+    Sphere,
+    Strip,
+    Surface,
+    Torus,
+    TSection,
+)
 from embedding.scene.shell import Shell, Support
 from embedding.scene.symmetry import axisymmetry_problems
 from embedding.scene.toml_io import load_scene
@@ -18,12 +35,19 @@ __all__ = [
     "EPSILON_0",
     "MU_0",
     "Ambient",
+    "Annulus",
+    "Arch",
+    "Cap",
+    "Cone",
+    "Cylinder",
     "Disc",
     "Discretisation",
     "EdgeTraction",
     "Electrode",
+    "Ellipsoid",
     "Expression",
     "Faces",
+    "Hemisphere",
     "InfiniteCylinder",
     "Loads",
     "Model",
@@ -35,11 +59,16 @@ __all__ = [
     "Scales",
     "Scene",
     "SceneError",
+    "Shape",
     "Shell",
     "Solver",
     "Sphere",
     "Stage",
+    "Strip",
     "Support",
+    "Surface",
+    "TSection",
+    "Torus",
     "axisymmetry_problems",
     "load_scene",
     "parse_expression",

@@ -78,9 +78,9 @@ def compressed(problem: Problem, scalars: dict[str, float]) -> bool:
     """
     if scalars["min_principal_stress"] >= COMPRESSION * problem.scales.stress:
         return False
-    held = {support.fix for support in problem.scene.supports if support.where == "surface"}
-    flat = problem.domain.mean_curvature == 0.0
-    return not (flat and any("z" in fix for fix in held))
+    held = {support.held for support in problem.scene.supports if support.where == "surface"}
+    flat = problem.domain.is_flat
+    return not (flat and any("z" in directions for directions in held))
 
 
 def _has_sources(problem: Problem) -> bool:

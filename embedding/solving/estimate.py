@@ -57,12 +57,12 @@ def estimate_error(problem: Problem, target: Target, steps: Sequence[StepRecord]
 
 def _slenderness(problem: Problem, scalars: dict[str, float]) -> float:
     """t / r of the deformed shell; 0 for flat shapes, whose in-plane deformation the theory has exactly."""
-    if problem.domain.mean_curvature == 0.0:
+    if problem.domain.is_flat:
         return 0.0
     stretch = scalars["stretch"]
     across = scalars.get("axial_stretch", problem.system.physics.axial_stretch)
     other = across if problem.reduction.name == "plane-strain" else stretch
-    return problem.system.physics.thickness / (stretch * stretch * other)
+    return problem.system.physics.thickness / problem.domain.curvature_radius / (stretch * stretch * other)
 
 
 def _response(steps: Sequence[StepRecord]) -> float:
@@ -101,7 +101,7 @@ class Enriched(Problem):
         self.reduction = problem.reduction
         sizes = replace(problem.domain.sizes, order=problem.domain.sizes.order + 1)
         self.domain = Domain(problem.mesh, problem.reduction, problem.scene.shell.shape, sizes)
-        self.system = System(self.domain, physics_of(self.scene, self.plan, self.scales))
+        self.system = System(self.domain, physics_of(self.scene, self.plan, self.scales, self.domain))
         for name in self.system.unknowns.names:
             self._carry(name, problem)
 

@@ -1,0 +1,63 @@
+"""Which side of the mid-surface is the top: the conventions of the shapes, and signs that follow them on a mesh.
+
+=====================================================  =======================================================
+shape                                                  the normal points
+=====================================================  =======================================================
+closed shapes                                          outwards
+plate, disc, annulus                                   along +z
+strip                                                  along +y
+cylinder, cone, cap, hemisphere, arch                  away from the axis or the centre
+T-section                                              along +x on the vertical plate, +z on the horizontal one
+file                                                   as its first face in the file says; ``flip`` turns it round
+=====================================================  =======================================================
+
+NGSolve's own normals follow the order of materials or the direction of an OCC edge. Here the elements of one part are
+first turned to one and the same side, from neighbour to neighbour; then the part as a whole is.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from embedding.geometry.facets import Facets
+from embedding.geometry.reduction import Reduction
+from embedding.scene import Arch, Cap, Cone, Cylinder, Hemisphere, Shape, TSection
+
+Floats = npt.NDArray[np.float64]
+CLEAR = 1e-3
+"""Smallest mean of N along the direction of the top side that settles a part."""
+
+
+def signs(facets: Facets, shape: Shape, reduction: Reduction) -> Floats:
+    """+1 or -1 for each element: times it, the mesh's own normal points to the top side.
+
+    Raises:
+        RuntimeError: the sides cannot be told apart on this mesh.
+        OneSidedError: the surface has only one side.
+    """
+    own = facets.at_centres(reduction.normal)
+    corner = np.sign(np.einsum("ij,ij->i", own, facets.corner_normals))
+    consistent = facets.turns * corner
+    upwards = np.einsum("ij,ij->i", own, _up(facets.at_centres(reduction.position), shape)) * consistent
+    area = np.linalg.norm(facets.corner_normals, axis=1)
+    count = facets.parts.max() + 1
+    share = np.bincount(facets.parts, upwards * area, count) / np.bincount(facets.parts, area, count)
+    if np.abs(share).min() < CLEAR:
+        raise RuntimeError("the shell's sides cannot be told apart on this mesh: make it finer on the shell")
+    return np.asarray(consistent * np.sign(share)[facets.parts])
+
+
+def _up(positions: Floats, shape: Shape) -> Floats:
+    """A vector field towards the top side, at mesh ``positions`` (n, d)."""
+    if isinstance(shape, Cap | Hemisphere | Arch) or (shape.closed and not isinstance(shape, Cylinder)):
+        return np.asarray(positions / np.linalg.norm(positions, axis=1).mean())
+    up = np.zeros_like(positions)
+    if isinstance(shape, TSection):
+        up[:, [0, 2]] = 1.0
+    elif isinstance(shape, Cylinder | Cone):
+        across = positions if shape.closed else positions[:, : max(1, positions.shape[1] - 1)]
+        up[:, : across.shape[1]] = across / np.linalg.norm(across, axis=1).mean()
+    else:
+        up[:, -1] = 1.0
+    return up

@@ -1,0 +1,33 @@
+"""What is asked of a mesh: element sizes, grading and order; all lengths relative to the size of the shape."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class MeshSizes:
+    """Dimensionless mesh request: sizes on the shell and far away, the ambient's radius (0: no ambient), grading.
+
+    ``edges`` holds smaller sizes along named edges of the shell, from which elements grow as ``grading`` allows.
+    """
+
+    shell: float
+    far: float
+    radius: float
+    grading: float
+    order: int
+    edges: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def potential_order(self) -> int:
+        """Order of the potential: one above the shell's.
+
+        The field's energy enters the Lagrangian with a minus sign. At equal order a distorted mesh overestimates it by
+        more than a soft membrane can afford, and creases that do not exist gain energy.
+        """
+        return self.order + 1
+
+    def along(self, edge: str) -> float:
+        """Element size along the edge ``edge``, never more than on the shell."""
+        return min(self.shell, dict(self.edges).get(edge, self.shell))

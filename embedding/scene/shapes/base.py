@@ -1,0 +1,121 @@
+"""What every mid-surface tells the rest of the house, and what surfaces of revolution share.
+
+The top face is the one the normal points out of; on closed shapes that is the outside.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from math import cos, pi, sin
+from typing import Annotated, Self
+
+from pydantic import BeforeValidator, model_validator
+
+from embedding.scene.messages import refusal
+from embedding.scene.part import Part, known
+from embedding.scene.units import Number
+
+Point = tuple[float, float, float]
+ANGLE = Number("angle", "rad", "90 deg")
+TURN = 2 * pi
+Angle = Annotated[float, BeforeValidator(Number("angle", "rad", "90 deg", at_least=-TURN, at_most=TURN))]
+PartOfTurn = Annotated[float, BeforeValidator(Number("angle", "rad", "90 deg", above=0.0, at_most=0.999 * TURN))]
+
+
+class Surface(Part):
+    """A reference mid-surface."""
+
+    kind: str
+
+    @property
+    def edges(self) -> tuple[str, ...]:
+        """Names of the lines that supports and line loads may stand on."""
+        return ()
+
+    @property
+    def reductions(self) -> tuple[str, ...]:
+        """Dimensional reductions that can carry the shape, the general one first."""
+        return ("3d",)
+
+    @property
+    def closed(self) -> bool:
+        """Does it enclose a volume?"""
+        return False
+
+    @property
+    def mirrors(self) -> tuple[str, ...]:
+        """Axes whose coordinate plane through the origin maps the shape onto itself and may cut it."""
+        return ()
+
+    def mirror_image(self, edge: str, axis: str) -> str:
+        """The name of the mirror image of ``edge`` in the plane of one of ``mirrors``."""
+        return edge
+
+    @property
+    @abstractmethod
+    def size(self) -> float:
+        """The length, in m, that every other length is measured in."""
+
+    @property
+    def narrowest(self) -> float:
+        """The narrowest extent that a mesh must resolve, in m."""
+        return self.size
+
+    @property
+    def curvature_radius(self) -> float | None:
+        """Smallest radius of curvature in m; None for a flat shape."""
+        return None
+
+    @abstractmethod
+    def sample_points(self) -> tuple[Point, ...]:
+        """A few points of the mid-surface, in m, among them likely places of a division by zero."""
+
+
+class Revolved(Surface):
+    """A surface of revolution about the z axis, whole or between two half planes.
+
+    The sector reaches from the angle ``start`` to ``start + angle``, counted from x towards y; None: the whole turn.
+    Its sides are the edges ``side0`` (at ``start``) and ``side1``.
+    """
+
+    start: Angle = 0.0
+    angle: PartOfTurn | None = None
+
+    @model_validator(mode="after")
+    def _start_needs_an_angle(self) -> Self:
+        if self.angle is None and self.start != 0.0:
+            reason = 'a sector needs an angle, such as angle = "90 deg"'
+            raise refusal(reason, field="start", value=self.start)
+        return self
+
+    @property
+    def sides(self) -> tuple[str, ...]:
+        """Edges along meridians."""
+        return () if known(self.angle) is None else ("side0", "side1")
+
+    @property
+    def reductions(self) -> tuple[str, ...]:
+        """In 3D, and the whole turn also by its meridian."""
+        return ("3d",) if self.sides else ("3d", "axisymmetric")
+
+    @property
+    def mirrors(self) -> tuple[str, ...]:
+        """The planes of the whole turn; a sector is meshed as it is."""
+        return () if self.sides else ("x", "y")
+
+    def _ring(self, radius: float, height: float) -> tuple[Point, ...]:
+        """A few points of the circle, or of its arc, at a ``radius`` and ``height``."""
+        if self.angle is None:
+            return circle(radius, height)
+        angles = [self.start + part * self.angle for part in (0.0, 0.31, 0.5, 1.0)]
+        return tuple((radius * cos(angle), radius * sin(angle), height) for angle in angles)
+
+    def _along(self, radius: float) -> float:
+        """Length of the arc at a ``radius``; the circle counts by its diameter."""
+        return 2 * radius if self.angle is None else radius * self.angle
+
+
+def circle(radius: float, height: float) -> tuple[Point, ...]:
+    """The axes, which are the likely places of a division by zero, and two angles without symmetry."""
+    axes = ((radius, 0.0, height), (0.0, radius, height), (-radius, 0.0, height), (0.0, -radius, height))
+    return (*axes, *((radius * cos(angle), radius * sin(angle), height) for angle in (0.7, 3.9)))
