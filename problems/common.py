@@ -8,20 +8,29 @@ import numpy as np
 import numpy.typing as npt
 from ngsolve import ET, IntegrationRule
 
-from embedding import Listener, NeoHookean, Scene, Solution
+from embedding import Gent, Listener, MooneyRivlin, NeoHookean, Ogden, Scene, Solution, Yeoh
 from embedding.solving.events import StepRecord
 from embedding.solving.state import State
-from problems.exact.material import Law, mooney_rivlin, neo_hookean
+from problems.exact import material as exact
 
 Array = npt.NDArray[np.float64]
 
 
-def law_of(scene: Scene) -> Law:
-    """The material of ``scene`` as the exact solutions state it, in Pa."""
+def law_of(scene: Scene) -> exact.Law:
+    """The incompressible material of ``scene`` as the exact solutions state it, in Pa."""
     material = scene.shell.material
-    if isinstance(material, NeoHookean):
-        return neo_hookean(material.shear_modulus)
-    return mooney_rivlin(material.c1, material.c2)
+    match material:
+        case NeoHookean():
+            return exact.neo_hookean(material.shear_modulus)
+        case MooneyRivlin():
+            return exact.MooneyRivlin(material.c1, material.c2)
+        case Yeoh():
+            return exact.Yeoh(material.c1, material.c2, material.c3)
+        case Gent():
+            return exact.Gent(material.shear_modulus, material.limit)
+        case Ogden():
+            return exact.Ogden(material.moduli, material.exponents)
+    raise ValueError(f"{type(material).__name__} is not incompressible")
 
 
 def thickness_ratio(scene: Scene) -> float:

@@ -4,7 +4,7 @@ from embedding.errors import Problem, SceneError
 from embedding.scene.ambient import Ambient, Electrode, Faces
 from embedding.scene.expression import Expression, parse_expression
 from embedding.scene.loads import EdgeTraction, Loads, PressureField
-from embedding.scene.materials import MooneyRivlin, NeoHookean
+from embedding.scene.materials import Gent, Material, MooneyRivlin, NeoHookean, Ogden, StVenantKirchhoff, Yeoh
 from embedding.scene.options import Discretisation, Model, Solver
 from embedding.scene.path import Stage
 from embedding.scene.scales import EPSILON_0, MU_0, Scales
@@ -47,12 +47,15 @@ __all__ = [
     "Ellipsoid",
     "Expression",
     "Faces",
+    "Gent",
     "Hemisphere",
     "InfiniteCylinder",
     "Loads",
+    "Material",
     "Model",
     "MooneyRivlin",
     "NeoHookean",
+    "Ogden",
     "Plate",
     "PressureField",
     "Problem",
@@ -63,12 +66,14 @@ __all__ = [
     "Shell",
     "Solver",
     "Sphere",
+    "StVenantKirchhoff",
     "Stage",
     "Strip",
     "Support",
     "Surface",
     "TSection",
     "Torus",
+    "Yeoh",
     "axisymmetry_problems",
     "load_scene",
     "parse_expression",

@@ -81,6 +81,12 @@ class Kinematics:
         return trace if self.dimension == 3 else trace + self.hoop * self.hoop
 
     @cached_property
+    def strain(self) -> Any:
+        """E = (C_s - P) / 2, the surface Green strain that the mesh shows; small strains keep their digits."""
+        product = self.gradient.trans * self.projector
+        return 0.5 * (product + product.trans + self.gradient.trans * self.gradient)
+
+    @cached_property
     def inverse_transpose(self) -> Any:
         """F-hat^{-T} with F-hat = F + lambda n (x) N: maps reference surface gradients to deformed ones."""
         full = self.deformation_gradient + OuterProduct(self.director, self.reference_normal)

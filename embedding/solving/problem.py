@@ -20,7 +20,7 @@ from embedding.geometry.domain import Domain, MeshSizes, build
 from embedding.geometry.reduction import Reduction
 from embedding.plan.decisions import Plan
 from embedding.scene import InfiniteCylinder, PressureField, Scales, Scene
-from embedding.shell.laws import Law
+from embedding.shell.laws import law_of
 from embedding.shell.loads import MechanicalLoads
 
 FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
@@ -106,7 +106,7 @@ def physics_of(scene: Scene, plan: Plan, scales: Scales) -> Physics:
         for component in plan.reduction.components(axis)
     )
     return Physics(
-        law=Law.of(scene.shell.material, scales.stress),
+        law=law_of(scene.shell.material, scales.stress),
         thickness=scene.shell.thickness / scales.length,
         loads=_loads(scene, plan.reduction, scales),
         supports=supports,

@@ -59,10 +59,8 @@ class State:
 
     @property
     def min_principal_stress(self) -> Any:
-        """Smaller in-plane Cauchy stress of the incompressible membrane in plane stress, dimensionless."""
-        law, (major, minor) = self._system.physics.law, self.principal_stretches
-        thickness = self.mid_surface.thickness_stretch
-        return 2 * (law.c1 + law.c2 * major**2) * (minor**2 - thickness**2)
+        """Smaller in-plane Cauchy stress of the membrane in plane stress, dimensionless."""
+        return self._system.physics.law.principal_stresses(*self.principal_stretches)[1]
 
     # -- pressures on the faces: mechanical plus the field's
 
@@ -105,7 +103,7 @@ class State:
             Field("shell", "stretch", "1", sqrt(k.surface_stretch)),
             Field("shell", "stretch_major", "1", major),
             Field("shell", "stretch_minor", "1", minor),
-            Field("shell", "thickness_stretch", "1", k.thickness_stretch),
+            Field("shell", "thickness_stretch", "1", self._system.physics.law.thickness_stretch(k)),
             Field("shell", "normal", "1", k.normal),
         ]
         for face, traction in self._system.tractions.items():

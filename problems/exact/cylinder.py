@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from problems.exact.material import Law, neo_hookean
+from problems.exact.material import Law, MooneyRivlin, neo_hookean
 from problems.exact.roots import increasing_root
 
 
@@ -39,7 +39,7 @@ def membrane_pressure(
 
 
 def thick_pressure(
-    stretch: float, thickness_ratio: float, law: Law | None = None, axial_stretch: float = 1.0
+    stretch: float, thickness_ratio: float, law: MooneyRivlin | None = None, axial_stretch: float = 1.0
 ) -> float:
     """Exact pressure of the thick tube: integral of W'(s) / (s^2 L - 1) from outer to inner face stretch.
 
@@ -66,7 +66,7 @@ def membrane_stretch(
 
 
 def thick_stretch(
-    pressure: float, thickness_ratio: float, law: Law | None = None, axial_stretch: float = 1.0
+    pressure: float, thickness_ratio: float, law: MooneyRivlin | None = None, axial_stretch: float = 1.0
 ) -> float:
     """Inverse of `thick_pressure` below its supremum (mu ln(R_out / R_in) at L = 1); ValueError above."""
     # By the stretch of the inner face, which may be any positive number: the bore never closes on the way.
@@ -111,12 +111,12 @@ def as_published_pressure(
     return (elastic - excess * pressure_top) / (stretch + 0.5 * excess)
 
 
-def membrane_slope(stretch: float, thickness_ratio: float, law: Law | None = None) -> float:
+def membrane_slope(stretch: float, thickness_ratio: float, law: MooneyRivlin | None = None) -> float:
     """Derivative of `membrane_pressure` in plane strain: 4 m (T/R) l^-5, m the shear modulus."""
     return 4.0 * (law or neo_hookean()).shear_modulus * thickness_ratio * stretch**-5
 
 
-def thick_slope(stretch: float, thickness_ratio: float, law: Law | None = None) -> float:
+def thick_slope(stretch: float, thickness_ratio: float, law: MooneyRivlin | None = None) -> float:
     """Derivative of `thick_pressure` in plane strain; always positive: no limit point."""
     inner, outer = face_stretches(stretch, thickness_ratio)
 

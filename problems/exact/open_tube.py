@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 from scipy.optimize import root
 
 from problems.exact import cylinder
-from problems.exact.material import Law, neo_hookean
+from problems.exact.material import MooneyRivlin, neo_hookean
 
 Pressures = Callable[[float, float], tuple[float, float]]
 Vector = NDArray[np.float64]
 
 
 def exact_pressures(
-    hoop_stretch: float, axial_stretch: float, thickness_ratio: float, law: Law | None = None
+    hoop_stretch: float, axial_stretch: float, thickness_ratio: float, law: MooneyRivlin | None = None
 ) -> tuple[float, float]:
     """(inner, outer) pressures that hold the tube at the two stretches without axial force, exact.
 
@@ -50,7 +50,7 @@ def exact_pressures(
 
 
 def membrane_pressures(
-    hoop_stretch: float, axial_stretch: float, thickness_ratio: float, law: Law | None = None
+    hoop_stretch: float, axial_stretch: float, thickness_ratio: float, law: MooneyRivlin | None = None
 ) -> tuple[float, float]:
     """(inner, outer) pressures in the shell theory with loads on the true faces, first order in T.
 
@@ -65,7 +65,7 @@ def membrane_pressures(
 
 
 def exact_stretches(
-    pressure_inner: float, pressure_outer: float, thickness_ratio: float, law: Law | None = None
+    pressure_inner: float, pressure_outer: float, thickness_ratio: float, law: MooneyRivlin | None = None
 ) -> tuple[float, float]:
     """(hoop, axial) stretches of the three-dimensional tube; ValueError where none is found from rest."""
     return _stretches(
@@ -74,7 +74,7 @@ def exact_stretches(
 
 
 def membrane_stretches(
-    pressure_inner: float, pressure_outer: float, thickness_ratio: float, law: Law | None = None
+    pressure_inner: float, pressure_outer: float, thickness_ratio: float, law: MooneyRivlin | None = None
 ) -> tuple[float, float]:
     """(hoop, axial) stretches of the shell theory; ValueError where none is found from rest."""
     return _stretches(

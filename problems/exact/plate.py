@@ -21,6 +21,18 @@ def traction_stretch(traction_per_thickness: float, law: Law | None = None) -> f
     return increasing_root(lambda stretch: traction(stretch, law) - traction_per_thickness)
 
 
+def equibiaxial_traction(stretch: float, law: Law | None = None) -> float:
+    """The same for a plate stretched equally in both directions, (sigma_1 - sigma_3) / stretch with l_3 = l^-2."""
+    law = law or neo_hookean()
+    return law.stress_difference(stretch, stretch**-2) / stretch
+
+
+def pure_shear_traction(stretch: float, law: Law | None = None) -> float:
+    """The same for a plate whose width is held: stretches (l, 1, 1/l)."""
+    law = law or neo_hookean()
+    return law.stress_difference(stretch, 1.0 / stretch) / stretch
+
+
 def squeeze(stretch: float, law: Law | None = None) -> float:
     """Equal pressure on both faces that squeezes a plate to the in-plane stretches (l, l); the rim is free.
 

@@ -10,7 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Literal, NamedTuple
 
-from problems.exact.material import Law, neo_hookean
+from scipy.integrate import quad
+
+from problems.exact.material import Law, MooneyRivlin, neo_hookean
 from problems.exact.roots import bracketed_root, increasing_root, sign_changes
 
 Theory = Literal["membrane", "thick"]
@@ -46,25 +48,44 @@ def membrane_pressure(stretch: float, thickness_ratio: float, law: Law | None = 
     Green and Adkins, Large Elastic Deformations (membrane theory).
     """
     law = law or neo_hookean()
-    return 4.0 * thickness_ratio * (law.c1 + law.c2 * stretch**2) * (stretch**-1 - stretch**-7)
+    return 2.0 * thickness_ratio * law.stress_difference(stretch, stretch**-2) / stretch**3
 
 
 def membrane_slope(stretch: float, thickness_ratio: float, law: Law | None = None) -> float:
-    """Derivative of `membrane_pressure` with respect to the stretch."""
-    law = law or neo_hookean()
-    neo_hooke = -(stretch**-2) + 7.0 * stretch**-8
-    return 4.0 * thickness_ratio * (law.c1 * neo_hooke + law.c2 * (1.0 + 5.0 * stretch**-6))
+    """Derivative of `membrane_pressure` with respect to the stretch, to rounding."""
+    return _derivative(lambda s: membrane_pressure(s, thickness_ratio, law), stretch)
+
+
+def _derivative(function: Callable[[complex], complex], at: float) -> float:
+    """By a complex step, which subtracts nothing (Squire and Trapp, SIAM Review 40 (1998) 110)."""
+    return function(at + 1e-30j).imag / 1e-30
+
+
+def _rate(stretch: float, law: Law) -> float:
+    """W'(s) / (s^3 - 1) with W(s) for stretches (s, s, s^-2); 4 c1 (s^-2 + s^-5) + 4 c2 (1 + s^-3) by Mooney-Rivlin."""
+    if isinstance(law, MooneyRivlin):
+        return 4.0 * law.c1 * (stretch**-2 + stretch**-5) + 4.0 * law.c2 * (1.0 + stretch**-3)
+
+    def difference(s: complex) -> complex:
+        return law.stress_difference(s, s**-2)
+
+    if abs(stretch - 1.0) < 1e-5:  # the mean slope by that in the middle: relative error 1e-10
+        slope = _derivative(difference, 0.5 * (1.0 + stretch))
+    else:
+        slope = difference(stretch) / (stretch - 1.0)
+    return 2.0 * slope / (stretch * (stretch**2 + stretch + 1.0))
 
 
 def thick_pressure(stretch: float, thickness_ratio: float, law: Law | None = None) -> float:
     """Exact pressure of the thick sphere: integral of W'(s) / (s^3 - 1) from outer to inner face stretch.
 
     Radial equilibrium with the hoop stretch as variable (Haughton and Ogden, J. Mech. Phys. Solids 26 (1978)
-    111-138). The integrand is 4 c1 (s^-2 + s^-5) + 4 c2 (1 + s^-3), integrated in
-    closed form.
+    111-138). In closed form for Mooney-Rivlin, by quadrature for other laws.
     """
     law = law or neo_hookean()
     inner, outer = face_stretches(stretch, thickness_ratio)
+    if not isinstance(law, MooneyRivlin):
+        return float(quad(_rate, outer, inner, args=(law,), epsabs=0.0, epsrel=1e-12)[0])
 
     def primitive(s: float) -> float:
         return 4.0 * law.c1 * (-1.0 / s - 0.25 * s**-4) + 4.0 * law.c2 * (s - 0.5 * s**-2)
@@ -78,8 +99,7 @@ def thick_slope(stretch: float, thickness_ratio: float, law: Law | None = None) 
     inner, outer = face_stretches(stretch, thickness_ratio)
 
     def rate(s: float, radius: float) -> float:
-        integrand = 4.0 * law.c1 * (s**-2 + s**-5) + 4.0 * law.c2 * (1.0 + s**-3)
-        return integrand * stretch**2 / (radius**3 * s**2)
+        return _rate(s, law) * stretch**2 / (radius**3 * s**2)
 
     return rate(inner, 1.0 - 0.5 * thickness_ratio) - rate(outer, 1.0 + 0.5 * thickness_ratio)
 

@@ -186,7 +186,7 @@ KINDS = 'must be a table with kind = "plate", "disc", "sphere" or "infinite-cyli
         ({"shell": shell(shape={"kind": ["disc"]})}, 'shell.shape.kind: [disc] is not allowed: must be "plate", "disc", "sphere" or "infinite-cylinder"'),
         ({"shell": shell(shape={"kind": "sphere"})}, f"shell.shape.radius: missing: {LENGTH}"),
         ({"shell": shell(shape={"kind": "infinite-cylinder", "radius": 1, "axial": "free", "axial_stretch": 2})}, 'shell.shape.axial_stretch: 2.0 is not allowed: a prescribed axial stretch needs axial = "held"'),
-        ({"shell": shell(material={"law": "hookean"})}, 'shell.material.law: "hookean" is not allowed: must be "neo-hookean" or "mooney-rivlin"; did you mean "neo-hookean"?'),
+        ({"shell": shell(material={"law": "hookean"})}, 'shell.material.law: "hookean" is not allowed: must be "neo-hookean", "mooney-rivlin", "yeoh", "gent", "ogden" or "st-venant-kirchhoff"; did you mean "neo-hookean"?'),
         ({"shell": shell(), "path": []}, "path: [] is not allowed: must hold at least one stage"),
         ({"shell": shell(), "path": {"steps": 1}}, "path: a table is not allowed: must be a list"),
         ({"shell": shell(), "path": [{"steps": 1}, {"stesp": 1}]}, 'path.1.stesp: unknown key: did you mean "steps"?'),
