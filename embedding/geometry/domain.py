@@ -19,6 +19,7 @@ from ngsolve import (
     H1,
     ElementId,
     FacetSurface,
+    Grad,
     GridFunction,
     Integrate,
     IntegrationRule,
@@ -34,6 +35,10 @@ from embedding.geometry.reduction import Reduction
 from embedding.geometry.sides import signs
 from embedding.geometry.sizes import MeshSizes as MeshSizes
 from embedding.scene import Shape as Shape
+from embedding.scene import SurfaceFile
+
+FLATTEST = 1e-6
+"""Curvature of a surface of size 1 that cannot be told from none."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +67,14 @@ class Domain:
 
     @property
     def curvature_radius(self) -> float:
-        """Smallest radius of curvature of the reference mid-surface, dimensionless; infinite without any curvature."""
+        """Smallest radius of curvature of the reference mid-surface, dimensionless; infinite without any curvature.
+
+        Of a surface from a file, as the mesh has it at the centres of its elements.
+        """
+        if isinstance(self.shape, SurfaceFile):
+            slopes = self.facets.at_centres(Grad(self.reduction.normal)).reshape(-1, 3, 3)
+            largest = float(np.linalg.norm(slopes, ord=2, axis=(1, 2)).max())
+            return 1 / largest if largest > FLATTEST else float("inf")
         radius = self.shape.curvature_radius
         return float("inf") if radius is None else radius / self.shape.size
 

@@ -6,7 +6,7 @@ import math
 
 from ngsolve import Mesh
 
-from embedding.geometry import plates, revolution, surface, surroundings
+from embedding.geometry import file, plates, revolution, surface, surroundings
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.sizes import MeshSizes
 from embedding.scene import (
@@ -23,6 +23,7 @@ from embedding.scene import (
     Shape,
     Sphere,
     Strip,
+    SurfaceFile,
     Torus,
     TSection,
 )
@@ -51,6 +52,8 @@ def mesh(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Mesh:
             return surface.strip(sizes)
         case Arch():
             return surface.arch(shape.radius / shape.size, shape.half_angle, sizes)
+        case SurfaceFile():
+            return file.file(shape, sizes)
         case TSection():
             return plates.t_section(sizes)
         case Annulus() if shape.slit:

@@ -45,13 +45,13 @@ class Meridian:
 def mesh(meridian: Meridian, reduction: Reduction, sector: tuple[float, float], sizes: MeshSizes) -> Mesh:
     """Mesh of what ``meridian`` sweeps from the angle ``sector[0]`` to ``sector[1]`` (radians; whole turn allowed).
 
-    In axisymmetry, and between the mirror planes x and y of ``reduction``, the sector is theirs instead. A mirror plane
-    z must be respected by the meridian itself.
+    The mirror planes x and y of ``reduction`` cut it down to its positive side. A mirror plane z must be respected by
+    the meridian itself.
     """
     if reduction.name == "axisymmetric":
         pieces = meridian.pieces(lambda p: Pnt(p[0], p[1], 0))
         return curve_mesh(pieces, lambda p: "axis" if p.x < CLOSE else meridian.name(p.x, p.y), sizes)
-    start, end = _between(reduction.planes) or sector
+    start, end = _cut(sector, reduction.planes)
     toward = (math.cos(start), math.sin(start))
     wire = Wire(meridian.pieces(lambda p: Pnt(p[0] * toward[0], p[0] * toward[1], p[1])))
     swept = wire.Revolve(Axis((0, 0, 0), (0, 0, 1)), math.degrees(end - start))
@@ -71,11 +71,13 @@ def mesh(meridian: Meridian, reduction: Reduction, sector: tuple[float, float], 
     return surface_mesh(swept, name, sizes)
 
 
-def _between(planes: tuple[str, ...]) -> tuple[float, float] | None:
-    """Angles of the part on the positive side of the mirror planes x and y."""
-    across = tuple(axis for axis in planes if axis != "z")
+def _cut(sector: tuple[float, float], planes: tuple[str, ...]) -> tuple[float, float]:
+    """Angles of the part of a sector on the positive side of the mirror planes x and y."""
+    start, end = sector
     quarter = math.pi / 2
-    return {("x", "y"): (0.0, quarter), ("x",): (-quarter, quarter), ("y",): (0.0, 2 * quarter)}.get(across)
+    if "x" in planes:  # only a whole turn is mirrored there
+        return (0.0 if "y" in planes else -quarter), quarter
+    return (0.0, min(end, 2 * quarter)) if "y" in planes else (start, end)
 
 
 def sector(shape: Annulus | Cylinder | Cap | Hemisphere | Cone) -> tuple[float, float]:

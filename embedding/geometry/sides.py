@@ -8,7 +8,7 @@ plate, disc, annulus                                   along +z
 strip                                                  along +y
 cylinder, cone, cap, hemisphere, arch                  away from the axis or the centre
 T-section                                              along +x on the vertical plate, +z on the horizontal one
-file                                                   as its first face in the file says; ``flip`` turns it round
+file                                                   as the first face of a part says; ``flip`` turns all round
 =====================================================  =======================================================
 
 NGSolve's own normals follow the order of materials or the direction of an OCC edge. Here the elements of one part are
@@ -22,7 +22,7 @@ import numpy.typing as npt
 
 from embedding.geometry.facets import Facets
 from embedding.geometry.reduction import Reduction
-from embedding.scene import Arch, Cap, Cone, Cylinder, Hemisphere, Shape, TSection
+from embedding.scene import Arch, Cap, Cone, Cylinder, Hemisphere, Shape, SurfaceFile, TSection
 
 Floats = npt.NDArray[np.float64]
 CLEAR = 1e-3
@@ -39,6 +39,9 @@ def signs(facets: Facets, shape: Shape, reduction: Reduction) -> Floats:
     own = facets.at_centres(reduction.normal)
     corner = np.sign(np.einsum("ij,ij->i", own, facets.corner_normals))
     consistent = facets.turns * corner
+    if isinstance(shape, SurfaceFile):
+        first = np.unique(facets.parts, return_index=True)[1]
+        return np.asarray((-1.0 if shape.flip else 1.0) * consistent * consistent[first][facets.parts])
     upwards = np.einsum("ij,ij->i", own, _up(facets.at_centres(reduction.position), shape)) * consistent
     area = np.linalg.norm(facets.corner_normals, axis=1)
     count = facets.parts.max() + 1

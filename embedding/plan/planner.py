@@ -92,11 +92,13 @@ def _conductor(scene: Scene) -> bool:
 def _sizes(scene: Scene, reduction: str) -> tuple[MeshSizes, tuple[Decision, ...]]:
     chosen, size = scene.discretisation, scene.shell.shape.size
     flat = scene.ambient is None and scene.shell.shape.curvature_radius is None
-    shell = chosen.shell_size / size if chosen.shell_size else (FLAT_SIZE if flat else SHELL_SIZE[reduction])
+    default = (FLAT_SIZE if flat else SHELL_SIZE[reduction]) * min(1.0, 2 * scene.shell.shape.narrowest / size)
+    shell = chosen.shell_size / size if chosen.shell_size else default
+    edges = tuple((edge, length / size) for edge, length in chosen.edge_size.items())
     origin = "stated by the scene" if chosen.shell_size else f"default of {reduction}"
     decisions = [Decision("mesh on the shell", f"{shell:.3g} x size", origin)]
     if scene.ambient is None:
-        return MeshSizes(shell, shell, 0.0, chosen.grading, chosen.order), tuple(decisions)
+        return MeshSizes(shell, shell, 0.0, chosen.grading, chosen.order, edges), tuple(decisions)
     stated = scene.ambient.radius
     radius = stated / size if stated else FAR_RADIUS
     origin = "stated by the scene" if stated else f"default, {FAR_RADIUS:g} times the shell"

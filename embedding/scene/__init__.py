@@ -24,6 +24,7 @@ from embedding.scene.shapes import (
     Sphere,
     Strip,
     Surface,
+    SurfaceFile,
     Torus,
     TSection,
 )
@@ -71,6 +72,7 @@ __all__ = [
     "Strip",
     "Support",
     "Surface",
+    "SurfaceFile",
     "TSection",
     "Torus",
     "Yeoh",

@@ -38,9 +38,16 @@ def _thickness(scene: Scene) -> Iterator[Problem]:
     if radius is not None and thickness / 2 >= radius:
         yield Problem(
             "shell.thickness",
-            f"{thickness} m is not allowed: half of it must be less than shell.shape.radius = {radius} m, "
+            f"{thickness} m is not allowed: half of it must be less than {_radius(scene)} = {radius} m, "
             "or the inner face crosses the centre of curvature",
         )
+
+
+def _radius(scene: Scene) -> str:
+    """What the smallest radius of curvature is called."""
+    shape = scene.shell.shape
+    same = (name for name in ("radius", "tube_radius") if getattr(shape, name, None) == shape.curvature_radius)
+    return next((f"shell.shape.{name}" for name in same), "the shape's smallest radius of curvature")
 
 
 def _supports(scene: Scene) -> Iterator[Problem]:
@@ -98,7 +105,7 @@ def _volume_control(scene: Scene) -> Iterator[Problem]:
             continue
         path = f"path.{number}.volume_ratio"
         if not shape.closed:
-            reason = "only closed shells (sphere, infinite-cylinder) enclose a volume"
+            reason = "only closed shells enclose a volume"
             yield Problem(path, f'not allowed for a shape of kind "{shape.kind}": {reason}')
         for name in scene.loads.pressure_fields:
             reason = f"loads.{name} varies over the surface, and volume control needs uniform pressures"
@@ -111,6 +118,15 @@ def _reduction(scene: Scene) -> Iterator[Problem]:
         allowed = quoted(("auto", *shape.reductions))
         message = f'"{reduction}" is not allowed: must be {allowed} for a shape of kind "{shape.kind}"'
         yield Problem("model.reduction", message)
+
+
+def _edge_sizes(scene: Scene) -> Iterator[Problem]:
+    shape = scene.shell.shape
+    for edge in scene.discretisation.edge_size:
+        if edge not in shape.edges:
+            path = f"discretisation.edge_size.{edge}"
+            kind = f'a shape of kind "{shape.kind}"'
+            yield Problem(path, f"unknown edge: {kind} has {quoted(shape.edges) or 'no edges'}")
 
 
 def _symmetric_vectors(scene: Scene) -> Iterator[Problem]:
@@ -136,4 +152,4 @@ MECHANICAL_CHECKS = (
     _infinitely_long,
     _volume_control,
 )
-MODEL_CHECKS = (_reduction, _symmetric_vectors, _symmetric_field, _symmetric_pressures)
+MODEL_CHECKS = (_reduction, _edge_sizes, _symmetric_vectors, _symmetric_field, _symmetric_pressures)

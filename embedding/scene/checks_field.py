@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 def _coupled_shape(scene: Scene) -> Iterator[Problem]:
     shape = scene.shell.shape
-    if known(scene.ambient) is not None and not shape.closed:
-        reason = "this version couples only closed shells (sphere, infinite-cylinder) to a field"
+    if known(scene.ambient) is not None and not shape.surroundable:
+        reason = "this version couples only a sphere or an infinite-cylinder to a field"
         yield Problem("ambient", f'not allowed around a shape of kind "{shape.kind}": {reason}')
 
 

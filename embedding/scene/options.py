@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, NoReturn
 
-from pydantic import BeforeValidator
+from pydantic import AfterValidator, BeforeValidator
 
+from embedding.scene.messages import refusal
 from embedding.scene.part import Part
 from embedding.scene.units import Length, Number
 
@@ -19,11 +21,33 @@ class Model(Part):
     far_field: Literal["auto", "robin"] = "auto"
 
 
+class Fixed(dict[str, float]):
+    """A table that cannot be changed, and so can stand in a scene."""
+
+    def __hash__(self) -> int:  # type: ignore[override]
+        return hash(frozenset(self.items()))
+
+    def _refuse(self, *_: Any, **__: Any) -> NoReturn:
+        raise TypeError("a scene cannot be changed")
+
+    __setitem__ = __delitem__ = update = setdefault = pop = popitem = clear = __ior__ = _refuse
+
+
+def _table(value: Any) -> Any:
+    if not isinstance(value, Mapping) or not all(isinstance(edge, str) for edge in value):
+        raise refusal('must be a table of edges and sizes, such as { rim = "0.2 mm" }')
+    return value
+
+
 class Discretisation(Part):
-    """Polynomial order, mesh sizes in m on the shell and far away, and how fast sizes may change."""
+    """Polynomial order, mesh sizes in m on the shell and far away, and how fast sizes may change.
+
+    ``edge_size`` holds smaller sizes along edges of the shape, by their names.
+    """
 
     order: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=4))] = 3
     shell_size: Length | None = None
+    edge_size: Annotated[dict[str, Length], BeforeValidator(_table), AfterValidator(Fixed)] = Fixed()
     ambient_size: Length | None = None
     grading: Annotated[float, BeforeValidator(Number(at_least=0.05, at_most=1.0))] = 0.3
 

@@ -30,3 +30,4 @@ class Line:
 
 
 Name = Annotated[str, BeforeValidator(Line())]
+FilePath = Annotated[str, BeforeValidator(Line(1000))]

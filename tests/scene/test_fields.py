@@ -171,7 +171,11 @@ def test_a_part(build: Any, line: str) -> None:
     assert refusals(build) == [line]
 
 
-KINDS = 'must be a table with kind = "plate", "disc", "sphere" or "infinite-cylinder"'
+ALL_KINDS = (
+    '"plate", "disc", "annulus", "sphere", "cylinder", "cap", "hemisphere", "cone", '
+    '"torus", "ellipsoid", "t-section", "infinite-cylinder", "strip", "arch" or "file"'
+)
+KINDS = f"must be a table with kind = {ALL_KINDS}"
 
 
 @pytest.mark.parametrize(
@@ -181,9 +185,9 @@ KINDS = 'must be a table with kind = "plate", "disc", "sphere" or "infinite-cyli
         ({"shell": 5}, "shell: 5 is not allowed: must be a table with the keys shape, thickness, material, relative_permittivity, relative_permeability"),
         ({"shell": shell(shape=5)}, f"shell.shape: 5 is not allowed: {KINDS}"),
         ({"shell": shell(shape=NeoHookean(shear_modulus=1))}, f"shell.shape: a NeoHookean is not allowed: {KINDS}"),
-        ({"shell": shell(shape={"radius": 1})}, 'shell.shape.kind: missing: must be "plate", "disc", "sphere" or "infinite-cylinder"'),
-        ({"shell": shell(shape={"kind": 3})}, 'shell.shape.kind: 3 is not allowed: must be "plate", "disc", "sphere" or "infinite-cylinder"'),
-        ({"shell": shell(shape={"kind": ["disc"]})}, 'shell.shape.kind: [disc] is not allowed: must be "plate", "disc", "sphere" or "infinite-cylinder"'),
+        ({"shell": shell(shape={"radius": 1})}, f'shell.shape.kind: missing: must be {ALL_KINDS}'),
+        ({"shell": shell(shape={"kind": 3})}, f'shell.shape.kind: 3 is not allowed: must be {ALL_KINDS}'),
+        ({"shell": shell(shape={"kind": ["disc"]})}, f'shell.shape.kind: [disc] is not allowed: must be {ALL_KINDS}'),
         ({"shell": shell(shape={"kind": "sphere"})}, f"shell.shape.radius: missing: {LENGTH}"),
         ({"shell": shell(shape={"kind": "infinite-cylinder", "radius": 1, "axial": "free", "axial_stretch": 2})}, 'shell.shape.axial_stretch: 2.0 is not allowed: a prescribed axial stretch needs axial = "held"'),
         ({"shell": shell(material={"law": "hookean"})}, 'shell.material.law: "hookean" is not allowed: must be "neo-hookean", "mooney-rivlin", "yeoh", "gent", "ogden" or "st-venant-kirchhoff"; did you mean "neo-hookean"?'),

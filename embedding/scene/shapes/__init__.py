@@ -8,6 +8,7 @@ from pydantic import Discriminator, Tag
 
 from embedding.scene.part import kind_under
 from embedding.scene.shapes.base import Point, Revolved, Surface
+from embedding.scene.shapes.file import SurfaceFile
 from embedding.scene.shapes.flat import Annulus, Disc, Plate, TSection
 from embedding.scene.shapes.round import Cap, Cone, Cylinder, Ellipsoid, Hemisphere, Sphere, Torus
 from embedding.scene.shapes.section import Arch, InfiniteCylinder, Strip
@@ -26,7 +27,8 @@ Shape = Annotated[
     | Annotated[TSection, Tag("t-section")]
     | Annotated[InfiniteCylinder, Tag("infinite-cylinder")]
     | Annotated[Strip, Tag("strip")]
-    | Annotated[Arch, Tag("arch")],
+    | Annotated[Arch, Tag("arch")]
+    | Annotated[SurfaceFile, Tag("file")],
     Discriminator(kind_under("kind")),
 ]
 
@@ -47,6 +49,7 @@ __all__ = [
     "Sphere",
     "Strip",
     "Surface",
+    "SurfaceFile",
     "TSection",
     "Torus",
 ]

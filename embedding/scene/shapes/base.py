@@ -16,8 +16,9 @@ from embedding.scene.part import Part, known
 from embedding.scene.units import Number
 
 Point = tuple[float, float, float]
-ANGLE = Number("angle", "rad", "90 deg")
 TURN = 2 * pi
+EVEN = 1e-12
+"""How far from even, relative to its angle, a sector may lie and still count as its own mirror image."""
 Angle = Annotated[float, BeforeValidator(Number("angle", "rad", "90 deg", at_least=-TURN, at_most=TURN))]
 PartOfTurn = Annotated[float, BeforeValidator(Number("angle", "rad", "90 deg", above=0.0, at_most=0.999 * TURN))]
 
@@ -50,6 +51,11 @@ class Surface(Part):
     def mirror_image(self, edge: str, axis: str) -> str:
         """The name of the mirror image of ``edge`` in the plane of one of ``mirrors``."""
         return edge
+
+    @property
+    def surroundable(self) -> bool:
+        """Can the space around it be meshed?"""
+        return False
 
     @property
     @abstractmethod
@@ -100,8 +106,14 @@ class Revolved(Surface):
 
     @property
     def mirrors(self) -> tuple[str, ...]:
-        """The planes of the whole turn; a sector is meshed as it is."""
-        return () if self.sides else ("x", "y")
+        """The planes of the whole turn; a sector that lies evenly on both sides of y = 0 is mirrored there."""
+        if self.angle is None:
+            return ("x", "y")
+        return ("y",) if abs(self.start + self.angle / 2) < EVEN * self.angle else ()
+
+    def mirror_image(self, edge: str, axis: str) -> str:
+        """Mirroring a sector swaps its sides."""
+        return {"side0": "side1", "side1": "side0"}.get(edge, edge) if axis == "y" else edge
 
     def _ring(self, radius: float, height: float) -> tuple[Point, ...]:
         """A few points of the circle, or of its arc, at a ``radius`` and ``height``."""

@@ -33,6 +33,11 @@ class Sphere(Surface):
         return True
 
     @property
+    def surroundable(self) -> bool:
+        """Always."""
+        return True
+
+    @property
     def mirrors(self) -> tuple[str, ...]:
         """All three coordinate planes."""
         return ("x", "y", "z")
@@ -85,12 +90,14 @@ class Cylinder(Revolved):
 
     @property
     def mirrors(self) -> tuple[str, ...]:
-        """All three planes cut the whole cylinder."""
-        return () if self.sides else ("x", "y") if self.half else ("x", "y", "z")
+        """The plane z = 0 as well, unless only half is there."""
+        return super().mirrors if self.half else (*super().mirrors, "z")
 
     def mirror_image(self, edge: str, axis: str) -> str:
         """Mirroring z swaps the ends."""
-        return {"end0": "end1", "end1": "end0"}.get(edge, edge) if axis == "z" else edge
+        if axis != "z":
+            return super().mirror_image(edge, axis)
+        return {"end0": "end1", "end1": "end0"}.get(edge, edge)
 
     @property
     def heights(self) -> tuple[float, float]:
