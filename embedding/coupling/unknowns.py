@@ -24,7 +24,8 @@ from embedding.ambient.motion import symmetry_components
 from embedding.ambient.potential import PotentialSpaces
 from embedding.coupling.physics import Physics
 from embedding.geometry.domain import Domain
-from embedding.geometry.spaces import Mask, TraceSpace, as_bits, plane_mask, scalar_mask
+from embedding.geometry.places import Place, unknowns_at
+from embedding.geometry.spaces import Mask, TraceSpace, as_bits, plane_mask
 
 FACES = ("t", "b")
 SIDES = {"t": "outside", "b": "inside"}
@@ -105,10 +106,9 @@ def _displacement(domain: Domain, reach: str) -> TraceSpace:
     return trace
 
 
-def _support(domain: Domain, trace: TraceSpace, supports: tuple[tuple[str, int], ...]) -> None:
-    for where, component in supports:
-        region = domain.shell if where == "surface" else domain.mesh.BBoundaries(where)
-        trace.fix(component, scalar_mask(trace.scalar, region))
+def _support(domain: Domain, trace: TraceSpace, supports: tuple[tuple[Place, int], ...]) -> None:
+    for place, component in supports:
+        trace.fix(component, unknowns_at(domain, trace.scalar, place))
 
 
 def free_rigid_motions(domain: Domain, trace: TraceSpace) -> list[Any]:

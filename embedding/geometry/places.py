@@ -93,9 +93,7 @@ def _place(mesh: Mesh, vertex: Any) -> Array:
 def _candidates(domain: Domain, target: Array) -> list[int]:
     """Boundary elements of the shell that may hold the point closest to ``target``."""
     mesh = domain.mesh
-    corners = {
-        el.nr: np.array([_place(mesh, v) for v in el.vertices]) for el in domain.shell.Elements()
-    }
+    corners = {el.nr: np.array([_place(mesh, v) for v in el.vertices]) for el in domain.shell.Elements()}
     centres = {number: places.mean(axis=0) for number, places in corners.items()}
     reach = {n: 1.5 * float(np.linalg.norm(corners[n] - centres[n], axis=1).max()) for n in corners}
     away = {n: float(np.linalg.norm(target - centres[n])) for n in corners}

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from embedding.geometry.reduction import Reduction
 from embedding.plan.decisions import Decision
-from embedding.scene import InfiniteCylinder, PressureField, Scene, Sphere, axisymmetry_problems
+from embedding.plan.mirror import mirrored_loads
+from embedding.scene import Scene, axisymmetry_problems
 
 AXES = ("x", "y", "z")
 
@@ -13,8 +14,9 @@ def choose_reduction(scene: Scene) -> tuple[Reduction, Decision]:
     """The cheapest reduction that the shape and the loads allow, or the one the scene pins."""
     if scene.model.reduction != "auto":
         name, reason = scene.model.reduction, "pinned by the scene"
-    elif isinstance(scene.shell.shape, InfiniteCylinder):
-        name, reason = "plane-strain", "an infinite cylinder is treated per length"
+    elif scene.shell.shape.reductions == ("plane-strain",):
+        kind = "an infinite cylinder" if scene.shell.shape.closed else "a cross-section"
+        name, reason = "plane-strain", f"{kind} is treated per length"
     elif "axisymmetric" not in scene.shell.shape.reductions:
         name, reason = "3d", "the shape has no axis"
     else:
@@ -30,15 +32,14 @@ def choose_reduction(scene: Scene) -> tuple[Reduction, Decision]:
 
 def _lopsided_supports(scene: Scene) -> list[str]:
     """Supports that hold x without y or the other way round, by the path of their field."""
-    fixed = [support.fix for support in scene.supports]
+    fixed = [support.held for support in scene.supports]
     return [f"supports.{i}.fix" for i, fix in enumerate(fixed) if ("x" in fix) != ("y" in fix)]
 
 
 def _mirror_planes(scene: Scene, reduction: str) -> tuple[str, ...]:
-    if scene.model.symmetry == "none" or reduction == "axisymmetric" or scene.shell.shape.kind == "plate":
+    if scene.model.symmetry == "none" or reduction == "axisymmetric":
         return ()
-    candidates = AXES if isinstance(scene.shell.shape, Sphere) else AXES[:2]
-    planes = tuple(axis for axis in candidates if _mirrored(scene, AXES.index(axis)))
+    planes = tuple(axis for axis in scene.shell.shape.mirrors if _mirrored(scene, AXES.index(axis)))
     if reduction == "plane-strain" and len(planes) < 2:
         return ()  # the cross-section is meshed whole or as a quarter
     return planes
@@ -46,11 +47,7 @@ def _mirror_planes(scene: Scene, reduction: str) -> tuple[str, ...]:
 
 def _mirrored(scene: Scene, axis: int) -> bool:
     """Is the scene its own image in the coordinate plane ``axis`` (the potential up to its sign)?"""
-    loads = scene.loads
-    vectors = [loads.body_force, *(edge.traction for edge in loads.edge_tractions)]
-    if any(vector[axis] for vector in vectors):
-        return False
-    if not all(_even(field, scene.shell.shape.sample_points(), axis) for field in loads.pressure_fields.values()):
+    if not mirrored_loads(scene, axis):
         return False
     applied = scene.ambient.applied_field if scene.ambient is not None else (0.0, 0.0, 0.0)
     if applied[axis] == 0.0:
@@ -58,15 +55,6 @@ def _mirrored(scene: Scene, axis: int) -> bool:
     alone = not any(applied[other] for other in range(3) if other != axis)
     charged = any(e is not None and e.voltage != 0.0 for e in (scene.faces.top, scene.faces.bottom))
     return alone and not charged
-
-
-def _even(field: PressureField, points: tuple[tuple[float, float, float], ...], axis: int) -> bool:
-    for point in points:
-        x, y, z = (-c if i == axis else c for i, c in enumerate(point))
-        here, there = float(field(*point)), float(field(x, y, z))
-        if abs(here - there) > 1e-9 * max(abs(here), abs(there)):
-            return False
-    return True
 
 
 def odd_planes(scene: Scene, reduction: Reduction) -> tuple[str, ...]:

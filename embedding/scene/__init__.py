@@ -3,7 +3,7 @@
 from embedding.errors import Problem, SceneError
 from embedding.scene.ambient import Ambient, Electrode, Faces
 from embedding.scene.expression import Expression, parse_expression
-from embedding.scene.loads import EdgeTraction, Loads, PressureField
+from embedding.scene.loads import EdgeMoment, EdgeTraction, LineLoad, Loads, PointLoad
 from embedding.scene.materials import Gent, Material, MooneyRivlin, NeoHookean, Ogden, StVenantKirchhoff, Yeoh
 from embedding.scene.options import Discretisation, Model, Solver
 from embedding.scene.path import Stage
@@ -28,7 +28,9 @@ from embedding.scene.shapes import (
     Torus,
     TSection,
 )
-from embedding.scene.shell import Shell, Support
+from embedding.scene.shell import Shell
+from embedding.scene.supports import Support
+from embedding.scene.surface_fields import ForceField, PressureField, ThicknessField
 from embedding.scene.symmetry import axisymmetry_problems
 from embedding.scene.toml_io import load_scene
 
@@ -43,14 +45,17 @@ __all__ = [
     "Cylinder",
     "Disc",
     "Discretisation",
+    "EdgeMoment",
     "EdgeTraction",
     "Electrode",
     "Ellipsoid",
     "Expression",
     "Faces",
+    "ForceField",
     "Gent",
     "Hemisphere",
     "InfiniteCylinder",
+    "LineLoad",
     "Loads",
     "Material",
     "Model",
@@ -58,6 +63,7 @@ __all__ = [
     "NeoHookean",
     "Ogden",
     "Plate",
+    "PointLoad",
     "PressureField",
     "Problem",
     "Scales",
@@ -74,6 +80,7 @@ __all__ = [
     "Surface",
     "SurfaceFile",
     "TSection",
+    "ThicknessField",
     "Torus",
     "Yeoh",
     "axisymmetry_problems",

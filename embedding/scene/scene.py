@@ -15,7 +15,8 @@ from embedding.scene.messages import refusal
 from embedding.scene.options import Discretisation, Model, Solver
 from embedding.scene.part import TOLERANT, Part, tolerant
 from embedding.scene.path import Stage
-from embedding.scene.shell import Shell, Support
+from embedding.scene.shell import Shell
+from embedding.scene.supports import Support
 from embedding.scene.texts import Name
 
 

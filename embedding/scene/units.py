@@ -147,6 +147,11 @@ PRESSURE = Number("pressure", "Pa", "100 kPa")
 VOLTAGE = Number("voltage", "V", "6 kV")
 LINE_FORCE = Number("force per length", "N/m", "3 N/m")
 FORCE_DENSITY = Number("force per volume", "N/m^3", "10 kN/m^3")
+FORCE = Number("force", "N", "3 N")
+EDGE_MOMENT = Number("moment per length (a force)", "N", "3 N")
+ACCELERATION = Number("acceleration", "m/s^2", "9.81 m/s^2")
+DENSITY = Number("density", "kg/m^3", "1100 kg/m^3")
+COORDINATE = Number("length", "m", "0.2 mm")
 ELECTRIC_FIELD = Number("electric field", "V/m", "2 kV/mm")
 MAGNETIC_FIELD = Number("magnetic field", "A/m", "5 kA/m")
 
@@ -159,6 +164,11 @@ Pressure = Annotated[float, BeforeValidator(PRESSURE)]
 Voltage = Annotated[float, BeforeValidator(VOLTAGE)]
 LineForce = Annotated[float, BeforeValidator(LINE_FORCE)]
 ForceDensity = Annotated[float, BeforeValidator(FORCE_DENSITY)]
+Force = Annotated[float, BeforeValidator(FORCE)]
+EdgeMomentValue = Annotated[float, BeforeValidator(EDGE_MOMENT)]
+Acceleration = Annotated[float, BeforeValidator(ACCELERATION)]
+Density = Annotated[float, BeforeValidator(_positive(DENSITY))]
+Coordinate = Annotated[float, BeforeValidator(COORDINATE)]
 
 
 def _components(value: Any) -> Any:
@@ -173,3 +183,7 @@ def _components(value: Any) -> Any:
 Components = BeforeValidator(_components)
 LineForceVector = Annotated[tuple[LineForce, LineForce, LineForce], Components]
 ForceDensityVector = Annotated[tuple[ForceDensity, ForceDensity, ForceDensity], Components]
+ForceVector = Annotated[tuple[Force, Force, Force], Components]
+PressureVector = Annotated[tuple[Pressure, Pressure, Pressure], Components]
+AccelerationVector = Annotated[tuple[Acceleration, Acceleration, Acceleration], Components]
+LengthVector = Annotated[tuple[Coordinate, Coordinate, Coordinate], Components]

@@ -16,9 +16,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from ngsolve import BND, CF, H1, Cross, GridFunction, IfPos, InnerProduct, Parameter, ds, dx, specialcf, x
+from ngsolve import BND, CF, H1, GridFunction, IfPos, InnerProduct, Parameter, ds, dx, x, y, z
 
 from embedding.geometry.domain import Domain
+from embedding.shell.edges import EdgeForce, conormal, edge_direction, edge_integral, off_axis, reference_frame
 from embedding.shell.kinematics import Kinematics, surface_gradient
 
 Variant = Literal["embedding-aware", "net", "as-published"]
@@ -26,7 +27,13 @@ Variant = Literal["embedding-aware", "net", "as-published"]
 
 @dataclass(frozen=True)
 class MechanicalLoads:
-    """Dimensionless loads at full strength; pressures are numbers or coefficient functions of the reference."""
+    """Dimensionless loads at full strength; pressures are numbers or coefficient functions of the reference.
+
+    ``edge_tractions`` and ``line_loads`` hold (name, force per reference length) in mesh components, ``edge_forces``
+    loads in the frame of an edge, ``edge_moments`` (edge, moment per reference length) that turn the outward conormal
+    towards the top, ``point_forces`` (place, force) of the whole body. ``body_force`` is per reference volume,
+    ``surface_force`` per reference area: components, or a coefficient function of shape (d,).
+    """
 
     pressure_top: Any
     pressure_bottom: Any
@@ -34,6 +41,11 @@ class MechanicalLoads:
     body_force: tuple[float, ...]
     rim_is_free: bool
     variant: Variant
+    edge_forces: tuple[EdgeForce, ...] = ()
+    line_loads: tuple[tuple[str, tuple[float, ...]], ...] = ()
+    edge_moments: tuple[tuple[str, float], ...] = ()
+    point_forces: tuple[tuple[tuple[float, ...], tuple[float, ...]], ...] = ()
+    surface_force: Any = None
 
     @property
     def uniform(self) -> bool:
@@ -55,17 +67,39 @@ class MechanicalLoads:
         """Does any face carry a pressure?"""
         return not (self.uniform and self.pressure_top == 0.0 and self.pressure_bottom == 0.0)
 
+    @property
+    def follows(self) -> bool:
+        """Does any load turn with the shell, so that it may have no potential?"""
+        return self.pressed or any(force.follows for force in self.edge_forces)
 
-def dead_load_energy(domain: Domain, loads: MechanicalLoads, thickness: float, u: Any, factor: Parameter) -> list[Any]:
-    """Potentials of the dead loads as integrals: - T b . u over the surface, - t . u over the edges."""
-    measure = domain.reduction.measure
+
+def dead_load_energy(domain: Domain, loads: MechanicalLoads, thickness: Any, u: Any, factor: Parameter) -> list[Any]:
+    """Potentials of the dead loads as integrals: - (T b + q) . u over the surface, - t . u over edges and lines.
+
+    Forces at points are not among them: they are nodal vectors (:func:`embedding.shell.point_loads`).
+    """
+    measure = factor * domain.reduction.measure
     terms = []
     if any(loads.body_force):
-        terms.append(-factor * thickness * measure * InnerProduct(CF(loads.body_force), u) * domain.surface())
-    for edge, traction in loads.edge_tractions:
-        line = dx(definedon=domain.mesh.BBoundaries(edge))
-        terms.append(-factor * measure * InnerProduct(CF(traction), u) * line)
+        terms.append(-1 * measure * thickness * InnerProduct(CF(loads.body_force), u) * domain.surface())
+    if loads.surface_force is not None:
+        terms.append(-1 * measure * InnerProduct(CF(loads.surface_force), u) * domain.surface())
+    for name, force in (*loads.edge_tractions, *loads.line_loads):
+        line = dx(definedon=domain.mesh.BBoundaries(name))
+        terms.append(-1 * measure * _share(domain) * InnerProduct(CF(force), u) * line)
+    for framed in loads.edge_forces:
+        if not framed.follows:
+            direction = edge_direction(framed.components, *reference_frame(domain))
+            terms.append(edge_integral(domain, framed.edge, -1 * measure * InnerProduct(direction, u)))
     return terms
+
+
+def _share(domain: Domain) -> Any:
+    """The part of a line that belongs to one mirror copy: a line in a mirror plane is shared by two."""
+    share: Any = 1.0
+    for axis in domain.reduction.planes:
+        share = share * IfPos({"x": x, "y": y, "z": z}[axis] - 1e-9, 1.0, 0.5)
+    return share
 
 
 def enclosed_volume(domain: Domain, kinematics: Kinematics, u: Any) -> Any:
@@ -77,7 +111,7 @@ def enclosed_volume(domain: Domain, kinematics: Kinematics, u: Any) -> Any:
 def follower_residual(
     domain: Domain,
     loads: MechanicalLoads,
-    thickness: float,
+    thickness: Any,
     kinematics: Kinematics,
     v: Any,
     factor: Parameter,
@@ -100,7 +134,7 @@ def follower_residual(
     rim_sign = _rim_sign(loads)
     if rim_sign and domain.rims:
         line = ds(definedon=domain.shell, element_boundary=True)
-        outward = _off_axis(domain, kinematics).inverse_transpose * _conormal(domain)
+        outward = off_axis(domain, kinematics).inverse_transpose * conormal(domain)
         on_rim = domain.rim_indicator(domain.rims)
         terms.append(rim_sign * thickness * measure * on_rim * loads.mean * InnerProduct(outward, trace) * line)
     return terms
@@ -111,22 +145,6 @@ def _rim_sign(loads: MechanicalLoads) -> float:
     if loads.variant == "embedding-aware":
         return -1.0 if loads.rim_is_free else 0.0
     return 1.0 if loads.variant == "as-published" and not loads.rim_is_free else 0.0
-
-
-def _off_axis(domain: Domain, kinematics: Kinematics) -> Kinematics:
-    """The kinematics with a hoop stretch of 1 on the axis, which element edges touch but no rim does."""
-    if domain.reduction.name != "axisymmetric":
-        return kinematics
-    on_axis = IfPos(x - 1e-9, 0.0, 1.0)
-    hoop = 1 + kinematics.u[0] / (x + on_axis)
-    return Kinematics(domain.reduction, kinematics.reference_normal, kinematics.u, hoop=hoop)
-
-
-def _conormal(domain: Domain) -> Any:
-    """In-plane unit normal of an element's edge, pointing out of the element (from the mesh's own normal)."""
-    if domain.mesh.dim == 2:
-        return specialcf.tangential(2)
-    return Cross(specialcf.normal(3), specialcf.tangential(3))
 
 
 def _hoop_rate(domain: Domain, kinematics: Kinematics, v: Any) -> Any:

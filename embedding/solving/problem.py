@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import ngsolve
 import numpy as np
 import numpy.typing as npt
 
@@ -19,17 +17,11 @@ from embedding.errors import SceneError
 from embedding.geometry.domain import Domain, MeshSizes, build
 from embedding.geometry.reduction import Reduction
 from embedding.plan.decisions import Plan
-from embedding.scene import InfiniteCylinder, PressureField, Scales, Scene
+from embedding.scene import InfiniteCylinder, Scales, Scene
 from embedding.shell.laws import law_of
-from embedding.shell.loads import MechanicalLoads
+from embedding.solving.loads import mechanical_loads
+from embedding.solving.supports import held_by_supports
 
-FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
-    "sin": ngsolve.sin,
-    "cos": ngsolve.cos,
-    "exp": ngsolve.exp,
-    "sqrt": ngsolve.sqrt,
-    "tanh": lambda a: 1 - 2 / (ngsolve.exp(2 * a) + 1),
-}
 Array = npt.NDArray[np.float64]
 
 
@@ -54,7 +46,7 @@ class Problem:
         self.scene, self.plan, self.scales = scene, plan, Scales.of(scene)
         self.reduction: Reduction = plan.reduction
         self.domain: Domain = build(scene.shell.shape, plan.reduction, sizes or plan.sizes)
-        self.system = System(self.domain, physics_of(scene, plan, self.scales))
+        self.system = System(self.domain, physics_of(scene, plan, self.scales, self.domain))
 
     @property
     def mesh(self) -> Any:
@@ -95,52 +87,28 @@ def refuse_unmodelled(scene: Scene) -> None:
         raise SceneError(problems)
 
 
-def physics_of(scene: Scene, plan: Plan, scales: Scales) -> Physics:
-    """The dimensionless statement of ``scene``."""
+def physics_of(scene: Scene, plan: Plan, scales: Scales, domain: Domain) -> Physics:
+    """The dimensionless statement of ``scene`` on the mesh of ``domain``.
+
+    Raises:
+        SceneError: a load or a support stands where the shell is not.
+    """
     shape = scene.shell.shape
     cylinder = shape if isinstance(shape, InfiniteCylinder) else None
-    supports = tuple(
-        (support.where, component)
-        for support in scene.supports
-        for axis in support.fix
-        for component in plan.reduction.components(axis)
-    )
+    held = held_by_supports(scene, domain, scales)
     return Physics(
         law=law_of(scene.shell.material, scales.stress),
         thickness=scene.shell.thickness / scales.length,
-        loads=_loads(scene, plan.reduction, scales),
-        supports=supports,
+        loads=mechanical_loads(scene, domain, scales),
+        supports=held.components,
         axial_free=cylinder is not None and cylinder.axial == "free",
         axial_stretch=cylinder.axial_stretch if cylinder is not None else 1.0,
         volume_controlled=any(stage.volume_ratio is not None for stage in scene.path),
         opened=plan.opened,
         field=_field(scene, plan, scales),
+        prescribed=held.prescribed,
+        clamped=held.clamped,
     )
-
-
-def _loads(scene: Scene, reduction: Reduction, scales: Scales) -> MechanicalLoads:
-    loads = scene.loads
-
-    def line(traction: tuple[float, float, float]) -> tuple[float, ...]:
-        return tuple(t / scales.line_force for t in reduction.project(traction))
-
-    return MechanicalLoads(
-        pressure_top=_pressure(loads.pressure_top, reduction, scales),
-        pressure_bottom=_pressure(loads.pressure_bottom, reduction, scales),
-        edge_tractions=tuple((edge.edge, line(edge.traction)) for edge in loads.edge_tractions),
-        body_force=tuple(b / scales.force_density for b in reduction.project(loads.body_force)),
-        rim_is_free=loads.rim == "traction-free",
-        variant=loads.variant,
-    )
-
-
-def _pressure(pressure: float | PressureField, reduction: Reduction, scales: Scales) -> Any:
-    if not isinstance(pressure, PressureField):
-        return float(pressure) / scales.stress
-    x, y, z = (scales.length * c for c in (ngsolve.x, ngsolve.y, ngsolve.z))
-    zero = ngsolve.CF(0.0)
-    place = {"3d": (x, y, z), "axisymmetric": (x, zero, y), "plane-strain": (x, y, zero)}[reduction.name]
-    return ngsolve.CF(pressure(*place, FUNCTIONS) / scales.stress)
 
 
 def _field(scene: Scene, plan: Plan, scales: Scales) -> FieldPhysics | None:

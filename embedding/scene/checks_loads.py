@@ -1,0 +1,117 @@
+"""Cross checks of loads and supports: places that the shape has, and what acts there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from embedding.errors import Problem
+from embedding.scene.messages import choice
+from embedding.scene.shapes import Point
+from embedding.scene.surface_fields import ForceField, SurfaceField
+
+if TYPE_CHECKING:
+    from embedding.scene.scene import Scene
+
+
+def surface_fields(scene: Scene) -> Iterator[tuple[str, SurfaceField]]:
+    """Every expression of the scene over the mid-surface, with the path of its text."""
+    for name, pressure in scene.loads.pressure_fields.items():
+        yield f"loads.{name}.expression", pressure
+    force = scene.loads.surface_force
+    if isinstance(force, ForceField):
+        for number, component in enumerate(force.components):
+            yield f"loads.surface_force.expression.{number}", component
+
+
+def _supports(scene: Scene) -> Iterator[Problem]:
+    shape = scene.shell.shape
+    allowed = (*shape.edges, "surface")
+    for number, support in enumerate(scene.supports):
+        path = f"supports.{number}"
+        if isinstance(support.where, str) and support.where not in allowed:
+            message = f'{choice(support.where, allowed)} (the shape is a "{shape.kind}")'
+            yield Problem(f"{path}.where", message)
+        elif "rotation" in support.held and support.where not in shape.edges:
+            field, value = ("kind", f'"{support.kind}"') if support.kind else ("fix", '"rotation"')
+            reason = "the rotation of the shell can be held on an edge only"
+            yield Problem(f"{path}.{field}", f"{value} is not allowed: {reason}")
+
+
+def _edges(scene: Scene) -> Iterator[Problem]:
+    loads = scene.loads
+    for number, traction in enumerate(loads.edge_tractions):
+        yield from _edge(scene, f"loads.edge_tractions.{number}.edge", traction.edge)
+    for number, line in enumerate(loads.line_loads):
+        yield from _edge(scene, f"loads.line_loads.{number}.line", line.line)
+    for number, moment in enumerate(loads.edge_moments):
+        yield from _edge(scene, f"loads.edge_moments.{number}.edge", moment.edge)
+
+
+def _edge(scene: Scene, path: str, edge: str) -> Iterator[Problem]:
+    shape = scene.shell.shape
+    if not shape.edges:
+        yield Problem(path, f'"{edge}" is not allowed: a shape of kind "{shape.kind}" has no edges')
+    elif edge not in shape.edges:
+        yield Problem(path, f'{choice(edge, shape.edges)} (the shape is a "{shape.kind}")')
+
+
+def _gravity(scene: Scene) -> Iterator[Problem]:
+    if any(scene.loads.gravity) and scene.shell.density is None:
+        yield Problem("shell.density", "missing: needed under loads.gravity")
+
+
+def _values(scene: Scene) -> Iterator[Problem]:
+    for path, field in surface_fields(scene):
+        bad = [point for point in scene.shell.shape.sample_points() if not _finite(field, point)]
+        if bad:
+            message = f"{field.expression} is not allowed: it has no finite value at {_place(bad[0])}"
+            yield Problem(path, message)
+
+
+def _place(point: Point) -> str:
+    return ", ".join(f"{axis} = {value:.3g} m" for axis, value in zip("xyz", point, strict=True))
+
+
+def _finite(field: SurfaceField, point: Point) -> bool:
+    try:
+        return math.isfinite(field(*point))
+    except (ArithmeticError, ValueError, TypeError):  # TypeError: a root of a negative number is complex
+        return False
+
+
+def _infinitely_long(scene: Scene) -> Iterator[Problem]:
+    """What is the same all along z has no load, place or displacement along z, and no load that varies along it."""
+    if scene.shell.shape.reductions != ("plane-strain",):
+        return
+    zero = "is not allowed: must be 0 along z, along which nothing changes"
+    for path, value in _along_z(scene):
+        if value != 0.0:
+            yield Problem(path, f"{value} {zero}")
+    for path, field in surface_fields(scene):
+        if "z" in field.parsed.variables:
+            message = f"{field.expression} is not allowed: must not depend on z, along which nothing changes"
+            yield Problem(path, message)
+    force = scene.loads.surface_force
+    if isinstance(force, ForceField) and any(force.components[2](*p) for p in scene.shell.shape.sample_points()):
+        yield Problem("loads.surface_force.expression.2", f"{force.expression[2]} {zero}")
+
+
+def _along_z(scene: Scene) -> Iterator[tuple[str, float]]:
+    loads = scene.loads
+    for name, vector in loads.dead_vectors.items():
+        yield f"loads.{name}.2", vector[2]
+    for number, edge in enumerate(loads.edge_tractions):
+        if edge.frame == "edge":
+            yield f"loads.edge_tractions.{number}.traction.1", edge.traction[1]
+    for number, load in enumerate(loads.point_loads):
+        yield f"loads.point_loads.{number}.at.2", load.at[2]
+        yield f"loads.point_loads.{number}.force.2", load.force[2]
+    for number, support in enumerate(scene.supports):
+        if not isinstance(support.where, str):
+            yield f"supports.{number}.where.2", support.where[2]
+        yield f"supports.{number}.displacement.2", support.displacement[2]
+
+
+LOAD_CHECKS = (_supports, _edges, _gravity, _values, _infinitely_long)

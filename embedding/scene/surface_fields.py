@@ -1,0 +1,103 @@
+"""Quantities that vary over the reference mid-surface, given as expressions in x, y and z."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, Any, ClassVar
+
+from pydantic import BeforeValidator
+
+from embedding.scene.expression import FLOAT_FUNCTIONS, Expression, Functions, parse_expression
+from embedding.scene.messages import TABLE, VALUE, refusal
+from embedding.scene.part import Part
+from embedding.scene.texts import Line
+from embedding.scene.units import unit_factor
+
+
+def _expression(value: Any) -> Any:
+    try:
+        return parse_expression(value).text if isinstance(value, str) else value
+    except ValueError as error:
+        raise refusal(str(error)) from error
+
+
+def _three(value: Any) -> Any:
+    if not isinstance(value, (list, tuple)) or len(value) != 3:
+        raise refusal("must be a list of 3 expressions, one for each of x, y and z")
+    return [repr(float(v)) if isinstance(v, (int, float)) and not isinstance(v, bool) else v for v in value]
+
+
+def _unit(si: str, noun: str, example: str) -> BeforeValidator:
+    def check(value: Any) -> str:
+        unit = Line(limit=40)(value)
+        try:
+            unit_factor(unit, si)
+        except ValueError as error:
+            raise refusal(f"{error}: must be a unit of {noun}, such as {example}") from error
+        return unit
+
+    return BeforeValidator(check)
+
+
+ExpressionText = Annotated[str, BeforeValidator(_expression)]
+
+
+class SurfaceField(Part):
+    """A quantity over the reference mid-surface: ``expression`` in x, y, z (metre), times ``unit``."""
+
+    si: ClassVar[str]
+
+    expression: ExpressionText
+    unit: str
+
+    @property
+    def parsed(self) -> Expression:
+        """The expression, ready to be evaluated."""
+        return parse_expression(self.expression)
+
+    @property
+    def factor(self) -> float:
+        """SI units per ``unit``."""
+        return float(unit_factor(self.unit, self.si))
+
+    def __call__(self, x: Any, y: Any, z: Any, functions: Functions = FLOAT_FUNCTIONS) -> Any:
+        """The SI value at a point in m; on other objects than floats pass their ``functions``."""
+        return self.factor * self.parsed(x, y, z, functions)
+
+
+class PressureField(SurfaceField):
+    """A pressure over the reference mid-surface: ``expression`` in x, y, z (metre), times ``unit``."""
+
+    si = "Pa"
+
+    unit: Annotated[str, _unit("Pa", "pressure", "kPa")] = "Pa"
+
+
+class ThicknessField(SurfaceField):
+    """A thickness over the reference mid-surface: ``expression`` in x, y, z (metre), times ``unit``."""
+
+    si = "m"
+
+    unit: Annotated[str, _unit("m", "length", "mm")] = "m"
+
+
+class ForceField(Part):
+    """A dead force per reference area: three expressions in x, y, z (metre), times ``unit``."""
+
+    expression: Annotated[tuple[ExpressionText, ExpressionText, ExpressionText], BeforeValidator(_three)]
+    unit: Annotated[str, _unit("Pa", "pressure", "kPa")] = "Pa"
+
+    @property
+    def components(self) -> tuple[PressureField, PressureField, PressureField]:
+        """The x, y and z component, each a field of its own."""
+        x, y, z = (PressureField(expression=text, unit=self.unit) for text in self.expression)
+        return x, y, z
+
+
+def value_or_table(kind: type[Part]) -> Callable[[Any], str]:
+    """A discriminator between a plain value and a table or object of ``kind``."""
+
+    def tag(value: Any) -> str:
+        return TABLE if isinstance(value, (dict, kind)) else VALUE
+
+    return tag
