@@ -78,7 +78,7 @@ def compressed(problem: Problem, scalars: dict[str, float]) -> bool:
     """
     if scalars["min_principal_stress"] >= COMPRESSION * problem.scales.stress:
         return False
-    held = {support.fix for support in problem.scene.supports if support.where == "surface"}
+    held = {support.held for support in problem.scene.supports if support.where == "surface"}
     flat = problem.domain.is_flat
     return not (flat and any("z" in directions for directions in held))
 

@@ -101,7 +101,7 @@ class Enriched(Problem):
         self.reduction = problem.reduction
         sizes = replace(problem.domain.sizes, order=problem.domain.sizes.order + 1)
         self.domain = Domain(problem.mesh, problem.reduction, problem.scene.shell.shape, sizes)
-        self.system = System(self.domain, physics_of(self.scene, self.plan, self.scales))
+        self.system = System(self.domain, physics_of(self.scene, self.plan, self.scales, self.domain))
         for name in self.system.unknowns.names:
             self._carry(name, problem)
 
