@@ -22,6 +22,7 @@ from embedding.ambient.transmission import shell_field_energy
 from embedding.coupling.physics import FieldPhysics, Physics
 from embedding.coupling.unknowns import SIDES, Unknowns
 from embedding.geometry.domain import Domain
+from embedding.shell.edges import edge_residual
 from embedding.shell.kinematics import Kinematics, surface_gradient
 from embedding.shell.loads import dead_load_energy, enclosed_volume, follower_residual
 
@@ -215,14 +216,23 @@ class Lagrangian:
         share = 2 if self.domain.reduction.name == "plane-strain" else 3
         return self.domain.shell_integral(InnerProduct(self.domain.reduction.position, normal) / share)
 
+    @property
+    def symmetric(self) -> bool:
+        """Do all loads have a potential, so that the Newton matrix is symmetric?"""
+        loads = self.physics.loads
+        return not loads.turning and (self.pressure_has_potential or not loads.pressed)
+
     def _residuals(self) -> list[Any]:
         physics = self.physics
-        if self.pressure_has_potential or not physics.loads.pressed:
+        if self.symmetric:
             return []
         kinematics = self.kinematics(self.unknowns.trial)
         factor = self.factors.mechanical
         v = self.unknowns.test["u"]
-        terms = follower_residual(self.domain, physics.loads, physics.thickness, kinematics, v, factor)
+        terms = edge_residual(self.domain, physics.loads.edge_forces, kinematics, v, factor)
+        if self.pressure_has_potential or not physics.loads.pressed:
+            return terms
+        terms += follower_residual(self.domain, physics.loads, physics.thickness, kinematics, v, factor)
         if physics.axial_free and physics.loads.rim_is_free and physics.loads.variant != "net":
             stretch, test = self.unknowns.trial["axial"], self.unknowns.test["axial"]
             work = self.measure * factor * physics.thickness * physics.loads.mean * test / stretch

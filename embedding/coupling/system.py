@@ -122,7 +122,7 @@ class System:
     @property
     def symmetric(self) -> bool:
         """Do all loads have a potential, so that the Newton matrix is symmetric?"""
-        return self.lagrangian.pressure_has_potential or not self.physics.loads.pressed
+        return self.lagrangian.symmetric
 
     @property
     def min_jacobian(self) -> float:

@@ -68,9 +68,9 @@ class MechanicalLoads:
         return not (self.uniform and self.pressure_top == 0.0 and self.pressure_bottom == 0.0)
 
     @property
-    def follows(self) -> bool:
-        """Does any load turn with the shell, so that it may have no potential?"""
-        return self.pressed or any(force.follows for force in self.edge_forces)
+    def turning(self) -> bool:
+        """Does any force follow its edge?"""
+        return any(force.follows for force in self.edge_forces)
 
 
 def dead_load_energy(domain: Domain, loads: MechanicalLoads, thickness: Any, u: Any, factor: Parameter) -> list[Any]:
