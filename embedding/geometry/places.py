@@ -24,6 +24,8 @@ CLOSE = 1e-6
 """How far a point may lie off the surface, or a corner off its point, in shell sizes."""
 BULGE = 0.1
 """How far off a curved element besides, relative to the height of its bulge: the mesh is not quite the shape."""
+FAR = 3.0
+"""Local coordinates that are outside every element for certain."""
 CORNERS: dict[Any, Array] = {
     ET.SEGM: np.array([[1.0], [0.0]]),
     ET.TRIG: np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]),
@@ -50,8 +52,17 @@ class SurfacePoint:
 
 def locate(domain: Domain, point: tuple[float, ...]) -> SurfacePoint:
     """The point of the meshed mid-surface closest to ``point``, given in mesh coordinates of the whole body."""
-    mesh, target = domain.mesh, np.abs(point) * _mirrored(domain) + np.asarray(point) * ~_mirrored(domain)
-    return min((_closest(mesh, number, target) for number in _candidates(domain, target)), key=lambda p: p.distance)
+    mirrored = np.array([axis in domain.reduction.planes for axis in "xyz"[: domain.mesh.dim]])
+    target = np.where(mirrored, np.abs(point), point)
+    near: SurfacePoint | None = None
+    for away, number in _by_distance(domain, target):
+        if near is not None and near.distance < away:
+            break
+        found = _closest(domain.mesh, number, target)
+        near = found if near is None or found.distance < near.distance else near
+    if near is None:
+        raise RuntimeError("the mesh has no shell")
+    return near
 
 
 def corner(domain: Domain, point: tuple[float, ...]) -> int | None:
@@ -81,52 +92,63 @@ def unknowns_at(domain: Domain, space: Any, place: Place) -> Mask:
     return mask
 
 
-def _mirrored(domain: Domain) -> Mask:
-    planes = domain.reduction.planes
-    return np.array([axis in planes for axis in "xyz"[: domain.mesh.dim]])
-
-
 def _place(mesh: Mesh, vertex: Any) -> Array:
     return np.asarray(mesh[vertex].point, dtype=np.float64)
 
 
-def _candidates(domain: Domain, target: Array) -> list[int]:
-    """Boundary elements of the shell that may hold the point closest to ``target``."""
-    mesh = domain.mesh
-    corners = {el.nr: np.array([_place(mesh, v) for v in el.vertices]) for el in domain.shell.Elements()}
-    centres = {number: places.mean(axis=0) for number, places in corners.items()}
-    reach = {n: 1.5 * float(np.linalg.norm(corners[n] - centres[n], axis=1).max()) for n in corners}
-    away = {n: float(np.linalg.norm(target - centres[n])) for n in corners}
-    nearest = min(away, key=lambda n: away[n] - reach[n])
-    return [n for n in corners if away[n] <= reach[n]] or [nearest]
+def _by_distance(domain: Domain, target: Array) -> list[tuple[float, int]]:
+    """The shell's elements, each with the least distance it can have from ``target``, the nearest first."""
+    mesh, bounds = domain.mesh, []
+    for element in domain.shell.Elements():
+        corners = np.array([_place(mesh, v) for v in element.vertices])
+        centre = corners.mean(axis=0)
+        reach = 1.5 * np.linalg.norm(corners - centre, axis=1).max()  # with room for the bulge
+        bounds.append((float(np.linalg.norm(target - centre) - reach), int(element.nr)))
+    return sorted(bounds)
 
 
 def _closest(mesh: Mesh, number: int, target: Array) -> SurfacePoint:
+    """The point of one curved element closest to ``target``: inside it, or else on one of its edges."""
     element = ElementId(BND, number)
     kind, trafo = mesh[element].type, mesh.GetTrafo(element)
     corners = CORNERS[kind]
-    local = corners.mean(axis=0)
-    for _ in range(50):
-        mapped = trafo(*local)
-        jacobian = np.asarray(mapped.jacobi).reshape(mesh.dim, -1)
-        step = np.linalg.lstsq(jacobian, target - np.asarray(mapped.point), rcond=None)[0]
-        moved = _inside(kind, local + step)
-        change, local = float(np.abs(moved - local).max()), moved
-        if change < 1e-15:
-            break
-    position = np.asarray(trafo(*local).point, dtype=np.float64)
+    inner = [_descend(trafo, target, corners.mean(axis=0), np.eye(2))] if mesh.dim == 3 else []
+    places = [local for local in inner if _inside(kind, local)]
+    if not places:
+        edges = zip(corners, np.roll(corners, -1, axis=0), strict=True)
+        places = [_descend(trafo, target, start, (end - start)[:, None]) for start, end in edges]
+    images = [_image(trafo, local)[0] for local in places]
+    distances = [float(np.linalg.norm(image - target)) for image in images]
+    best = int(np.argmin(distances))
+    local, position = places[best], images[best]
     flat = _weights(kind, local) @ np.array([_place(mesh, v) for v in mesh[element].vertices])
     allowed = CLOSE + BULGE * float(np.linalg.norm(position - flat))
-    return SurfacePoint(number, tuple(local), position, float(np.linalg.norm(position - target)), allowed)
+    return SurfacePoint(number, tuple(map(float, local)), position, distances[best], allowed)
 
 
-def _inside(kind: Any, local: Array) -> Array:
-    """The nearest local coordinates within the element."""
-    inside = np.clip(local, 0.0, 1.0)
-    if kind == ET.TRIG and local.sum() > 1.0:
-        inside = np.clip(local - (local.sum() - 1.0) / 2, 0.0, 1.0)
-        inside /= max(1.0, inside.sum())
-    return inside
+def _descend(trafo: Any, target: Array, start: Array, directions: Array) -> Array:
+    """Local coordinates ``start`` + ``directions`` s whose image is closest to ``target``; on a line 0 <= s <= 1."""
+    along = directions.shape[1] == 1
+    s = np.full(directions.shape[1], 0.5 if along else 0.0)
+    for _ in range(50):
+        position, jacobian = _image(trafo, start + directions @ s)
+        step = np.linalg.lstsq(jacobian @ directions, target - position, rcond=None)[0]
+        moved = np.clip(s + step, 0.0, 1.0) if along else np.clip(s + step, -FAR, FAR)
+        change, s = float(np.abs(moved - s).max()), moved
+        if change < 1e-15:
+            break
+    return np.asarray(start + directions @ s, dtype=np.float64)
+
+
+def _inside(kind: Any, local: Array) -> bool:
+    return bool(local.min() >= 0.0 and (local.sum() if kind == ET.TRIG else local.max()) <= 1.0)
+
+
+def _image(trafo: Any, local: Array) -> tuple[Array, Array]:
+    """Position (d,) and derivative (d, d - 1) of the curved element at ``local``."""
+    mapped = trafo(*local)  # held while its memory is copied: what it hands out are views
+    position = np.array(mapped.point, dtype=np.float64)
+    return position, np.array(mapped.jacobi, dtype=np.float64).reshape(len(position), -1)
 
 
 def _weights(kind: Any, local: Array) -> Array:

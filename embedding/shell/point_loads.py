@@ -25,7 +25,7 @@ def point_load_vector(domain: Domain, trace: TraceSpace, loads: MechanicalLoads)
     for place, force in loads.point_forces:
         at = locate(domain, place)
         element = ElementId(BND, at.element)
-        shape = np.asarray(trace.scalar.GetFE(element).CalcShape(*at.local)).ravel()
+        shape = np.array(trace.scalar.GetFE(element).CalcShape(*at.local)).ravel()
         numbers = trace.in_block(trace.scalar.GetDofNrs(element))
         for component, value in enumerate(_image(domain, place, force)):
             blocks[component, numbers] += value * shape
