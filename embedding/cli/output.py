@@ -93,7 +93,7 @@ def print_solution(solution: Solution, picture: Path | None) -> None:
     from embedding.archive.units import scalar_unit
 
     print(f"{solution.scene.name}: {words(solution.result.name)} after {len(solution.steps)} steps")
-    per_length = solution.scene.shell.shape.kind == "infinite-cylinder"
+    per_length = solution.scene.shell.shape.reductions == ("plane-strain",)
     scalars = solution.steps[-1].scalars if solution.steps else {}
     units = {name: scalar_unit(name, per_length) for name in scalars}
     rows = [(name, number(value, units[name])) for name, value in without_noise(scalars, units).items()]

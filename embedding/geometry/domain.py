@@ -17,6 +17,7 @@ from ngsolve import (
     CF,
     ET,
     H1,
+    BitArray,
     ElementId,
     FacetSurface,
     Grad,
@@ -24,6 +25,7 @@ from ngsolve import (
     Integrate,
     IntegrationRule,
     Mesh,
+    Region,
     SurfaceL2,
     ds,
     dx,
@@ -118,6 +120,15 @@ class Domain:
     def shell(self) -> Any:
         """The boundary region of the mid-surface."""
         return self.mesh.Boundaries("shell")
+
+    def face(self, name: str) -> Any:
+        """The boundary region of the face or faces of a file with this name."""
+        names = self.shape.faces if isinstance(self.shape, SurfaceFile) else ()
+        bits = BitArray(len(self.mesh.GetBoundaries()))
+        bits.Clear()
+        for number in (i for i, face in enumerate(names) if face == name):
+            bits.Set(number)
+        return Region(self.mesh, BND, bits)
 
     @cached_property
     def sign(self) -> Any:

@@ -45,14 +45,14 @@ class SurfaceFile(Surface):
         if file.suffix.lower() not in SUFFIXES:
             raise refusal(f"must be the name of a {', '.join(SUFFIXES)} file", field="path", value=self.path)
         if not file.is_file():
-            raise refusal("there is no such file", field="path", value=self.path)
+            raise refusal(f"there is no file {file.name}", field="path", value=self.path)
         try:
             faces = len(self.content.faces)
         except Exception as error:  # the geometry kernel answers broken files with many kinds of error
-            reason = "cannot be read as a file of its kind; write it again from the program it comes from"
+            reason = f"{file.name} cannot be read; write it again from the program it comes from"
             raise refusal(reason, field="path", value=self.path) from error
         if faces == 0:
-            raise refusal("there are no faces in this file", field="path", value=self.path)
+            raise refusal(f"there are no faces in {file.name}", field="path", value=self.path)
         return self
 
     @property
