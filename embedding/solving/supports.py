@@ -79,7 +79,7 @@ def _axis_across(domain: Domain, edge: str) -> str | None:
 
 def _no_corner(number: int, support: Support) -> Problem:
     reason = "must be a corner of the shape: there is no vertex of the mesh"
-    return Problem(f"supports.{number}.where", f"{support.where} is not allowed: {reason}")
+    return Problem(f"supports.{number}.where", f"{list(support.where)} is not allowed: {reason}")
 
 
 def _no_plane(number: int, support: Support) -> Problem:

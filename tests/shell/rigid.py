@@ -17,7 +17,7 @@ from tests.forms import Array, set_on_shell
 
 
 class NodalForces:
-    """The forces of ``loads`` on the unknowns of a displaced shell; work is the dot product with their virtual change."""
+    """Forces of ``loads`` on the unknowns of a shell; the dot product with a change of those is their work."""
 
     def __init__(self, domain: Domain, loads: MechanicalLoads, thickness: Any = 0.1) -> None:
         self.domain = domain

@@ -1,0 +1,138 @@
+"""From a scene to numbers on a mesh: scales of every load, where supports hold, what stands off the shell."""
+
+# ruff: noqa: E501 - one message per line
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from embedding import Scene, explain
+from embedding.solving.problem import Problem
+from tests.scene.samples import MATERIAL, refusals
+
+MU, SIZE = 1e5, 0.02
+SHAPES: dict[str, dict[str, Any]] = {
+    "plate": {"kind": "plate", "length": SIZE, "width": SIZE / 2},
+    "disc": {"kind": "disc", "radius": SIZE},
+    "sphere": {"kind": "sphere", "radius": SIZE},
+    "hemisphere": {"kind": "hemisphere", "radius": SIZE},
+    "quarter": {"kind": "hemisphere", "radius": SIZE, "angle": "90 deg"},
+    "skew": {"kind": "hemisphere", "radius": SIZE, "angle": "45 deg", "start": "20 deg"},
+    "strip": {"kind": "strip", "length": SIZE},
+}
+
+
+def problem(shape: str, **parts: Any) -> Problem:
+    scene = Scene(
+        shell={"shape": SHAPES[shape], "thickness": SIZE / 100, "material": MATERIAL, "density": 1000.0},
+        discretisation={"shell_size": SIZE / 2, "order": 2},
+        **parts,
+    )
+    return Problem(scene, explain(scene))
+
+
+def test_every_load_is_measured_in_moduli_and_sizes() -> None:
+    loads = {
+        "body_force": [0, 0, 1e6],
+        "gravity": [0, 0, -1e3],
+        "surface_force": [0, 2e4, 0],
+        "edge_tractions": [
+            {"edge": "x0", "traction": [20, 0, 0]},
+            {"edge": "x1", "traction": [20, 0, 40], "frame": "edge"},
+            {"edge": "y0", "traction": [0, 20, 0], "frame": "edge", "kind": "follower"},
+        ],
+        "line_loads": [{"line": "y1", "force": [0, 0, 2000]}],
+        "edge_moments": [{"edge": "x1", "moment": 4}],
+        "point_loads": [{"at": [SIZE / 2, SIZE / 4, 0], "force": [0, 0, 40]}],
+    }
+    stated = problem("plate", loads=loads).system.physics.loads
+    assert stated.body_force == pytest.approx((0, 0, (1e6 - 1e6) * SIZE / MU))
+    assert stated.surface_force == pytest.approx((0, 0.2, 0))
+    assert stated.edge_tractions == (("x0", pytest.approx((0.01, 0, 0))),)
+    assert [(f.edge, f.follows) for f in stated.edge_forces] == [("x1", False), ("y0", True)]
+    assert stated.edge_forces[0].components == pytest.approx((0.01, 0, 0.02))
+    assert stated.line_loads == (("y1", pytest.approx((0, 0, 1))),)
+    assert stated.edge_moments == (("x1", pytest.approx(0.1)),)
+    assert stated.point_forces == ((pytest.approx((0.5, 0.25, 0)), pytest.approx((0, 0, 1))),)
+
+
+def test_a_surface_force_in_every_reduction() -> None:
+    """The radial direction of axisymmetry is the x axis."""
+    force = {"surface_force": {"expression": ["5e6*x", "5e6*y", 2e5]}}
+    for reduction, size in (("axisymmetric", 2), ("3d", 3)):
+        made = problem("disc", loads=force, model={"reduction": reduction, "symmetry": "none"})
+        field = made.system.physics.loads.surface_force
+        work = made.domain.shell_integral(sum(field[i] * made.reduction.position[i] for i in range(size - 1)))
+        # int 5e6 Pa/m R r x r / MU dA = 1 x 2 pi / 4
+        assert work == pytest.approx(math.pi / 2, rel=1e-2)
+        assert made.domain.shell_integral(field[size - 1]) == pytest.approx(2 * math.pi, rel=1e-2)
+
+
+def test_in_plane_strain_a_point_is_a_line() -> None:
+    """40 N per metre along z over modulus times size."""
+    load = {"at": [SIZE, 0, 0], "force": [0, 40, 0]}
+    made = problem("strip", loads={"point_loads": [load]})
+    assert made.system.physics.loads.point_forces == (((1.0, 0.0), pytest.approx((0, 0.02))),)
+
+
+def test_points_off_the_shell_are_refused() -> None:
+    loads = {"point_loads": [{"at": [0, 0, z], "force": [0, 0, 1]} for z in (SIZE, 0.021, 0.0)]}
+    assert refusals(lambda: problem("sphere", loads=loads)) == [
+        "loads.point_loads.1.at: [0.0, 0.0, 0.021] is not allowed: must be a point of the mid-surface, which is 0.001 m away",
+        "loads.point_loads.2.at: [0.0, 0.0, 0.0] is not allowed: must be a point of the mid-surface, which is 0.02 m away",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("shape", "edge", "component", "parts"),
+    [
+        ("plate", "x0", 0, {}),
+        ("plate", "y1", 1, {}),
+        ("hemisphere", "rim", 1, {}),
+        ("hemisphere", "rim", 2, {"model": {"reduction": "3d"}}),
+        ("quarter", "side0", 1, {}),
+        ("quarter", "side1", 0, {}),
+        ("quarter", "rim", 2, {}),
+        ("strip", "x1", 0, {}),
+    ],
+)
+def test_symmetry_holds_what_crosses_the_plane(shape: str, edge: str, component: int, parts: dict[str, Any]) -> None:
+    physics = problem(shape, supports=[{"where": edge, "kind": "symmetry"}], **parts).system.physics
+    assert physics.supports == ((edge, component),)
+    assert physics.clamped == (edge,) and physics.prescribed == ()
+
+
+@pytest.mark.parametrize(("shape", "edge"), [("disc", "rim"), ("skew", "side0")])
+def test_symmetry_needs_a_plane(shape: str, edge: str) -> None:
+    supports = [{"where": edge, "kind": "symmetry"}]
+    for reduction in ("3d", "auto"):
+        line = f'supports.0.kind: "symmetry" is not allowed: the shell does not end square in a plane across the x, y or z axis at "{edge}"'
+        assert refusals(lambda r=reduction: problem(shape, supports=supports, model={"reduction": r})) == [line]
+
+
+def test_what_is_held_where() -> None:
+    supports = [
+        {"where": "x0", "kind": "clamped", "displacement": [0, 0, SIZE / 10]},
+        {"where": [SIZE, SIZE / 2, 0], "fix": ["z"]},
+        {"where": "x1", "fix": ["rotation"]},
+    ]
+    made = problem("plate", supports=supports)
+    physics, trace = made.system.physics, made.system.unknowns.trace
+    corner = (1.0, 0.5, 0.0)
+    assert physics.supports == (("x0", 0), ("x0", 1), ("x0", 2), (corner, 2))
+    assert physics.prescribed == (("x0", 2, pytest.approx(0.1)),)
+    assert physics.clamped == ("x0", "x1")
+    held = ~trace.free.reshape(3, -1)
+    assert held[2].sum() == held[0].sum() + 1
+    assert np.array_equal(held[0], held[1])
+
+
+def test_a_point_support_needs_a_corner() -> None:
+    supports = [{"where": [SIZE / 2.1, 0, 0], "fix": ["z"]}]
+    assert refusals(lambda: problem("plate", supports=supports)) == [
+        f"supports.0.where: [{SIZE / 2.1}, 0.0, 0.0] is not allowed: must be a corner of the shape: there is no vertex of the mesh"
+    ]
