@@ -31,8 +31,9 @@ from ngsolve import (
     dx,
 )
 
+from embedding.errors import Problem, SceneError
 from embedding.geometry import curvature, meshing
-from embedding.geometry.facets import Facets, Mask
+from embedding.geometry.facets import Facets, Mask, OneSidedError
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.sides import signs
 from embedding.geometry.sizes import MeshSizes as MeshSizes
@@ -184,9 +185,18 @@ def build(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Domain:
     """Mesh ``shape`` in ``reduction`` at the requested ``sizes`` and curve the mesh to the order of the fields.
 
     Lengths are divided by the size of the shape.
+
+    Raises:
+        SceneError: a surface from a file has one side only.
+        RuntimeError: the mesh has holes, or the sides cannot be told apart on it.
     """
     mesh = meshing.mesh(shape, reduction, sizes)
     mesh.Curve(sizes.order)
     domain = Domain(mesh, reduction, shape, sizes)
-    _ = domain.normal
+    if np.any((domain.facets.neighbours == 1) & ~domain.facets.on_edges):
+        raise RuntimeError("the mesh of the shell has holes: change the size of its elements")
+    try:
+        _ = domain.normal
+    except OneSidedError as error:
+        raise SceneError([Problem("shell.shape", f"not allowed: {error}, so it has no top")]) from error
     return domain

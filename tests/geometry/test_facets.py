@@ -10,8 +10,9 @@ import pytest
 from netgen.occ import Axes, Glue, WorkPlane
 from ngsolve import H1, GridFunction, Integrate, Mesh, ds
 
-from embedding import Plate
-from embedding.geometry.domain import Domain, MeshSizes
+from embedding import Plate, SceneError
+from embedding.geometry import meshing
+from embedding.geometry.domain import Domain, MeshSizes, build
 from embedding.geometry.facets import Facets, OneSidedError
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.spaces import scalar_mask
@@ -134,6 +135,17 @@ def test_a_surface_with_one_side_is_refused() -> None:
     assert band.parts.max() == 0
     with pytest.raises(OneSidedError):
         _ = strip.turns
+
+
+def test_bad_meshes_end_in_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    shape, sizes = CASES["annulus"].shape, MeshSizes(0.3, 0.3, 0.0, 0.3, 1)
+    monkeypatch.setattr(meshing, "mesh", lambda *_: moebius(20, False))
+    with pytest.raises(RuntimeError, match="has holes"):
+        build(shape, Reduction("3d"), sizes)
+    monkeypatch.setattr(Facets, "on_edges", True)
+    monkeypatch.setattr(meshing, "mesh", lambda *_: moebius(20, True))
+    with pytest.raises(SceneError, match="only one side"):
+        build(shape, Reduction("3d"), sizes)
 
 
 def test_every_element_has_its_own_sign() -> None:

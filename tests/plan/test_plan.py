@@ -82,3 +82,39 @@ def test_every_decision_has_a_reason() -> None:
     made = plan(**CHARGED)
     assert all(decision.reason for decision in made.decisions)
     assert made.text().count("\n") == len(made.decisions) - 1
+
+
+TUBE = {**SPHERE, "shape": {"kind": "cylinder", "radius": 0.02, "length": 0.1}}
+"""A cylinder, whose ends are each other's mirror images."""
+
+
+@pytest.mark.parametrize(
+    ("held", "dimension"),
+    [
+        (("end0", "end1"), "3d, 1/8"),
+        (("end0",), "3d, 1/4"),
+        ((), "3d, 1/8"),
+    ],
+)
+def test_what_is_held_on_one_end_is_not_mirrored(held: tuple[str, ...], dimension: str) -> None:
+    supports = [{"where": end, "fix": ["x", "y", "z"]} for end in held]
+    made = chosen(shell=TUBE, supports=supports, loads={"pressure_bottom": {"expression": "1 + x**2"}})
+    assert made["dimension"] == dimension
+
+
+def test_sectors_are_mirrored_if_they_lie_evenly() -> None:
+    for start, dimension in ((-20, "3d, 1/4"), (0, "3d, 1/2")):
+        panel = TUBE["shape"] | {"start": f"{start} deg", "angle": "40 deg"}
+        assert chosen(shell={**TUBE, "shape": panel})["dimension"] == dimension
+
+
+def test_cross_sections_are_treated_per_length() -> None:
+    for shape in ({"kind": "strip", "length": 0.1}, {"kind": "arch", "radius": 0.1, "half_angle": 0.5}):
+        assert chosen(shell={**SPHERE, "shape": shape})["dimension"] == "plane-strain"
+
+
+def test_narrow_shapes_get_small_elements() -> None:
+    ring = {"kind": "annulus", "inner_radius": 0.09, "outer_radius": 0.1}
+    sizes = plan(shell={**SPHERE, "shape": ring}, discretisation={"edge_size": {"inner": "1 mm"}}).sizes
+    assert sizes.shell == pytest.approx(0.35 * 0.2)
+    assert sizes.edges == (("inner", pytest.approx(0.01)),)

@@ -27,7 +27,7 @@ def inflated(
 
 
 def linear_torus_pressure(ratio: float) -> float:
-    """Pressure at a small change of volume, from the membrane forces of a torus (W. Fluegge, Stresses in Shells, chapter 2).
+    """Pressure at a small change of volume, by the membrane forces of a torus (Fluegge, Stresses in Shells, chapter 2).
 
     N_phi = p a (r + R) / 2r around the tube and N_theta = p a / 2 along it are in equilibrium whatever the material.
     The change of volume per pressure is the integral of N C N over the surface, with E = 3 mu and Poisson's ratio 1/2.
