@@ -11,7 +11,8 @@ import embedding
 
 ROOT = Path(embedding.__file__).parent
 FLOORS = (
-    "errors", "scene", "geometry", "shell", "ambient", "coupling", "plan", "solving", "archive", "view", "api", "cli",
+    "errors", "scene", "geometry", "shell", "ambient", "coupling", "plan", "solving", "archive", "view", "fit", "api",
+    "cli",
 )  # fmt: skip
 FILES = sorted(ROOT.rglob("*.py"))
 

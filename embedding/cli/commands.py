@@ -130,3 +130,37 @@ def plot(
         else:
             view.picture(archive, file, step=-1 if step is None else step - 1)
     print(target)
+
+
+@app.command
+def fit(
+    data: Annotated[Path, Parameter(help="CSV file with the columns mode, stretch, nominal_stress [unit].")],
+    /,
+    *,
+    law: Annotated[str, Parameter(help="neo-hookean, mooney-rivlin, yeoh, gent or ogden.")],
+    terms: Annotated[int, Parameter(help="Terms of the ogden law; default 3.")] = 3,
+    relative: Annotated[bool, Parameter(negative="", help="Weigh every point by its own stress.")] = False,
+    picture: Annotated[Path | None, Parameter(help="Also draw data and curves into this PNG file.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Fit a law to tests of a material and print the material as it stands in a scene file.
+
+    Modes are uniaxial, equibiaxial and pure-shear; nominal stress is force per undeformed area.
+    """
+    if picture is not None:
+        from embedding.view.rendering import require_packages
+
+        check_output("--picture", picture, ".png")
+        require_packages()
+
+    from embedding import fit as fitting
+    from embedding.cli.fit import fit_summary, print_fit
+
+    found = fitting.fit_law(law, fitting.read_measurements(data), terms=terms, relative=relative)
+    if picture is not None:
+        with whole_file(picture) as file:
+            fitting.fit_picture(found, file)
+    if as_json:
+        print_json({**fit_summary(found), "picture": picture})
+    else:
+        print_fit(found, picture)

@@ -71,7 +71,7 @@ class Yeoh(Law):
 
 @dataclass(frozen=True)
 class Gent(Law):
-    """W = -(mu Jm / 2) ln(1 - (I1 - 3) / Jm) (Gent 1996); not a number from I1 - 3 = Jm on."""
+    """W = -(mu Jm / 2) ln(1 - (I1 - 3) / Jm) (Gent 1996); infinitely stiff from I1 - 3 = Jm on."""
 
     modulus: float
     limit: float
@@ -84,10 +84,10 @@ class Gent(Law):
         return -0.5 * self.modulus * self.limit * math.log(1.0 - excess(stretch_1, stretch_2) / self.limit)
 
     def stress_difference(self, stretch_i: float, stretch_j: float) -> float:
-        left = self.limit - excess(stretch_i, stretch_j)
+        left, difference = self.limit - excess(stretch_i, stretch_j), stretch_i**2 - stretch_j**2
         if left.real <= 0.0:
-            return math.nan
-        return self.modulus * self.limit / left * (stretch_i**2 - stretch_j**2)
+            return math.copysign(math.inf, difference.real)
+        return self.modulus * self.limit / left * difference
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,8 @@ shell.
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Callable
 from typing import Literal, NamedTuple
 
@@ -57,8 +59,9 @@ def membrane_slope(stretch: float, thickness_ratio: float, law: Law | None = Non
 
 
 def _derivative(function: Callable[[complex], complex], at: float) -> float:
-    """By a complex step, which subtracts nothing (Squire and Trapp, SIAM Review 40 (1998) 110)."""
-    return function(at + 1e-30j).imag / 1e-30
+    """By a complex step, which subtracts nothing (Squire and Trapp, SIAM Review 40 (1998) 110); nan past locking."""
+    value = function(at + 1e-30j)
+    return value.imag / 1e-30 if cmath.isfinite(value) else math.nan
 
 
 def _rate(stretch: float, law: Law) -> float:

@@ -57,5 +57,5 @@ def test_readme_commands_exist() -> None:
         assert Scene.from_toml((ROOT / scene).read_text(), source=scene)
     assert (ROOT / "setup.sh").is_file()
     documented = set(re.findall(r"`embedding (\w+)", (ROOT / "docs" / "run.md").read_text()))
-    assert documented == {"run", "explain", "info", "plot"}
+    assert documented == {"run", "explain", "info", "plot", "fit"}
     assert all(app[name] for name in documented)

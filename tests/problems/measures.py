@@ -8,6 +8,14 @@ from collections.abc import Sequence
 NEO_HOOKEAN = "shell.material={law = 'neo-hookean', shear_modulus = '100 kPa'}"
 MOONEY_RIVLIN = "shell.material={law = 'mooney-rivlin', c1 = '40 kPa', c2 = '10 kPa'}"
 LAWS = (NEO_HOOKEAN, MOONEY_RIVLIN)
+EVERY_LAW = {
+    "neo-hookean": "{law = 'neo-hookean', shear_modulus = '100 kPa'}",
+    "mooney-rivlin": "{law = 'mooney-rivlin', c1 = '40 kPa', c2 = '10 kPa'}",
+    "yeoh": "{law = 'yeoh', c1 = '50 kPa', c2 = '-0.5 kPa', c3 = '20 Pa'}",
+    "gent": "{law = 'gent', shear_modulus = '100 kPa', limit = 97.2}",
+    "ogden": "{law = 'ogden', moduli = ['0.63 MPa', '1.2 kPa', '-10 kPa'], exponents = [1.3, 5, -2]}",
+}
+"""The incompressible laws, as tables of a scene file."""
 
 
 def orders(sizes: Sequence[float], errors: Sequence[float]) -> list[float]:
