@@ -11,7 +11,7 @@ from embedding import open_archive
 from problems import plate_squeeze
 
 FOLDER = Path(plate_squeeze.__file__).parent
-SCRIPTS = ("plate_traction", "plate_squeeze", "cylinder_inflation", "open_tube", "sphere_inflation",
+SCRIPTS = ("plate_traction", "uniaxial_tension", "plate_squeeze", "cylinder_inflation", "open_tube", "sphere_inflation",
            "varying_pressure_sphere", "charged_balloon", "grounded_balloon", "permeable_sphere")  # fmt: skip
 
 
