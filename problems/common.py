@@ -35,7 +35,7 @@ def law_of(scene: Scene) -> exact.Law:
 
 def thickness_ratio(scene: Scene) -> float:
     """T/R: thickness over the size of the shape."""
-    return float(scene.shell.thickness / scene.shell.shape.size)
+    return float(scene.shell.thickest / scene.shell.shape.size)
 
 
 class Positions(Listener):

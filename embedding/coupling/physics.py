@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from embedding.ambient.potential import Electrodes
 from embedding.geometry.places import Place
@@ -28,14 +29,15 @@ class FieldPhysics:
 class Physics:
     """The shell, its loads and supports, and the field around it; lengths in shell sizes, stresses in shear moduli.
 
-    ``supports`` lists the (where, component) pairs that are held, ``prescribed`` those of them that are held at a
-    displacement, its third entry; where is an edge, "surface" or a point in mesh coordinates. ``clamped`` names the
-    edges about which the shell cannot turn. ``opened`` names the faces ("t", "b") that are placed at their true
-    positions; the others count as lying at the mid-surface.
+    ``thickness`` is a number, or a coefficient function of the reference where it varies. ``supports`` lists the
+    (where, component) pairs that are held, ``prescribed`` those of them that are held at a displacement, its third
+    entry; where is an edge, "surface" or a point in mesh coordinates. ``clamped`` names the edges about which the shell
+    cannot turn. ``opened`` names the faces ("t", "b") that are placed at their true positions; the others count as
+    lying at the mid-surface.
     """
 
     law: Law
-    thickness: float
+    thickness: Any
     loads: MechanicalLoads
     supports: tuple[tuple[Place, int], ...]
     axial_free: bool

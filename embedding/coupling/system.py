@@ -116,7 +116,7 @@ class System:
         """sqrt(|residual . step| / (T A)): an energy norm per shear modulus and shell volume."""
         mask = self._solver.mask
         work = float(np.dot(residual.FV().NumPy()[mask], step.FV().NumPy()[mask]))
-        size = self.physics.thickness * self.domain.shell_integral(1.0)
+        size = self.domain.shell_integral(self.physics.thickness)
         return float(np.sqrt(abs(work) / size))
 
     @property

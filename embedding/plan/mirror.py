@@ -1,11 +1,12 @@
-"""Are loads and supports their own mirror image in a coordinate plane?"""
+"""Are thickness, loads and supports their own mirror image in a coordinate plane?"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
 
-from embedding.scene import ForceField, PressureField, Scene, Support
+from embedding.scene import ForceField, Scene, Support
+from embedding.scene.surface_fields import SurfaceField
 
 Vector = tuple[float, float, float]
 SAME = 1e-9
@@ -13,10 +14,12 @@ AXES = ("x", "y", "z")
 
 
 def mirrored_loads(scene: Scene, axis: int) -> bool:
-    """Do loads and supports stay the same when mirrored in the plane across coordinate ``axis`` (0, 1 or 2)?"""
+    """Do thickness, loads and supports stay the same when mirrored across coordinate ``axis`` (0, 1 or 2)?"""
     loads = scene.loads
     uniform = [loads.body_force, loads.gravity]
-    fields = [(field, False) for field in loads.pressure_fields.values()]
+    fields: list[tuple[SurfaceField, bool]] = [
+        (field, False) for field in (*loads.pressure_fields.values(), *scene.shell.thickness_fields.values())
+    ]
     if isinstance(loads.surface_force, ForceField):
         fields += [(component, i == axis) for i, component in enumerate(loads.surface_force.components)]
     else:
@@ -34,7 +37,7 @@ def _image(vector: Vector, axis: int) -> Vector:
     return x, y, z
 
 
-def _parity(field: PressureField, points: Sequence[Vector], axis: int, *, odd: bool) -> bool:
+def _parity(field: SurfaceField, points: Sequence[Vector], axis: int, *, odd: bool) -> bool:
     for point in points:
         here, there = float(field(*point)), float(field(*_image(point, axis)))
         if abs(here - (-there if odd else there)) > SAME * max(abs(here), abs(there)):

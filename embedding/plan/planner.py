@@ -29,7 +29,7 @@ def explain(scene: Scene) -> Plan:
 
 
 def _theory(scene: Scene) -> Decision:
-    ratio = scene.shell.thickness / scene.shell.shape.size
+    ratio = scene.shell.thickest / scene.shell.shape.size
     reason = (
         f"thickness over size {ratio:.3g}: loads off by about {0.8 * ratio**2:.1e} of themselves; no bending stiffness"
     )
@@ -72,7 +72,7 @@ def _field(scene: Scene) -> tuple[Decision, ...]:
 def _interface(scene: Scene) -> tuple[tuple[str, ...], tuple[Decision, ...]]:
     if scene.ambient is None:
         return (), ()
-    ratio = scene.shell.thickness / scene.shell.shape.size
+    ratio = scene.shell.thickest / scene.shell.shape.size
     if scene.model.interface == "closed":
         reason = f"pinned by the scene; first order in the thickness, about {1.6 * ratio:.1e} of the field's load"
         return (), (Decision("interface", "closed", reason),)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from embedding.errors import Problem
 from embedding.scene.checks_field import FIELD_CHECKS
 from embedding.scene.checks_loads import LOAD_CHECKS
+from embedding.scene.checks_shell import SHELL_CHECKS
 from embedding.scene.messages import quoted
 from embedding.scene.part import Unavailable, known
 from embedding.scene.symmetry import UNSYMMETRIC
@@ -24,30 +25,13 @@ Check = Callable[["Scene"], Iterator[Problem]]
 def cross_problems(scene: Scene) -> tuple[Problem, ...]:
     """Everything that does not fit together; checks on fields that are themselves wrong are left out."""
     found: list[Problem] = []
-    for check in (_thickness, *LOAD_CHECKS, _volume_control, *FIELD_CHECKS, *MODEL_CHECKS):
+    for check in (*SHELL_CHECKS, *LOAD_CHECKS, _volume_control, *FIELD_CHECKS, *MODEL_CHECKS):
         try:
             for problem in check(scene):
                 found.append(problem)
         except Unavailable:
             continue
     return tuple(found)
-
-
-def _thickness(scene: Scene) -> Iterator[Problem]:
-    radius, thickness = scene.shell.shape.curvature_radius, scene.shell.thickness
-    if radius is not None and thickness / 2 >= radius:
-        yield Problem(
-            "shell.thickness",
-            f"{thickness} m is not allowed: half of it must be less than {_radius(scene)} = {radius} m, "
-            "or the inner face crosses the centre of curvature",
-        )
-
-
-def _radius(scene: Scene) -> str:
-    """What the smallest radius of curvature is called."""
-    shape = scene.shell.shape
-    same = (name for name in ("radius", "tube_radius") if getattr(shape, name, None) == shape.curvature_radius)
-    return next((f"shell.shape.{name}" for name in same), "the shape's smallest radius of curvature")
 
 
 def _volume_control(scene: Scene) -> Iterator[Problem]:

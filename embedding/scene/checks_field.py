@@ -24,7 +24,7 @@ def _ambient_radius(scene: Scene) -> Iterator[Problem]:
     radius = known(scene.ambient.radius) if scene.ambient is not None else None
     if radius is None:
         return
-    outside = scene.shell.shape.size + scene.shell.thickness / 2
+    outside = scene.shell.shape.size + scene.shell.thickest / 2
     if radius <= outside:
         reason = f"must be greater than {outside} m, the size of the shell plus half its thickness"
         yield Problem("ambient.radius", f"{radius} m is not allowed: {reason}")

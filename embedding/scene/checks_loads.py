@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from embedding.errors import Problem
 from embedding.scene.messages import choice
+from embedding.scene.part import known
 from embedding.scene.shapes import Point
 from embedding.scene.surface_fields import ForceField, SurfaceField
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 
 def surface_fields(scene: Scene) -> Iterator[tuple[str, SurfaceField]]:
     """Every expression of the scene over the mid-surface, with the path of its text."""
+    for path, thickness in scene.shell.thickness_fields.items():
+        yield f"shell.{path}.expression", thickness
     for name, pressure in scene.loads.pressure_fields.items():
         yield f"loads.{name}.expression", pressure
     force = scene.loads.surface_force
@@ -58,27 +61,28 @@ def _edge(scene: Scene, path: str, edge: str) -> Iterator[Problem]:
 
 
 def _gravity(scene: Scene) -> Iterator[Problem]:
-    if any(scene.loads.gravity) and scene.shell.density is None:
+    if any(scene.loads.gravity) and known(scene.shell.density) is None:
         yield Problem("shell.density", "missing: needed under loads.gravity")
 
 
 def _values(scene: Scene) -> Iterator[Problem]:
     for path, field in surface_fields(scene):
-        bad = [point for point in scene.shell.shape.sample_points() if not _finite(field, point)]
+        bad = [point for point in scene.shell.shape.sample_points() if not math.isfinite(field.value_at(point))]
         if bad:
             message = f"{field.expression} is not allowed: it has no finite value at {_place(bad[0])}"
             yield Problem(path, message)
 
 
+def _thick(scene: Scene) -> Iterator[Problem]:
+    for path, field in scene.shell.thickness_fields.items():
+        points = [point for point in scene.shell.shape.sample_points() if field.value_at(point) <= 0.0]
+        if points:
+            reason = f"must be greater than 0, and is {field.value_at(points[0]):.3g} m at {_place(points[0])}"
+            yield Problem(f"shell.{path}.expression", f"{field.expression} is not allowed: {reason}")
+
+
 def _place(point: Point) -> str:
     return ", ".join(f"{axis} = {value:.3g} m" for axis, value in zip("xyz", point, strict=True))
-
-
-def _finite(field: SurfaceField, point: Point) -> bool:
-    try:
-        return math.isfinite(field(*point))
-    except (ArithmeticError, ValueError, TypeError):  # TypeError: a root of a negative number is complex
-        return False
 
 
 def _infinitely_long(scene: Scene) -> Iterator[Problem]:
@@ -94,7 +98,7 @@ def _infinitely_long(scene: Scene) -> Iterator[Problem]:
             message = f"{field.expression} is not allowed: must not depend on z, along which nothing changes"
             yield Problem(path, message)
     force = scene.loads.surface_force
-    if isinstance(force, ForceField) and any(force.components[2](*p) for p in scene.shell.shape.sample_points()):
+    if isinstance(force, ForceField) and any(force.components[2].values_at(scene.shell.shape.sample_points())):
         yield Problem("loads.surface_force.expression.2", f"{force.expression[2]} {zero}")
 
 
@@ -114,4 +118,4 @@ def _along_z(scene: Scene) -> Iterator[tuple[str, float]]:
         yield f"supports.{number}.displacement.2", support.displacement[2]
 
 
-LOAD_CHECKS = (_supports, _edges, _gravity, _values, _infinitely_long)
+LOAD_CHECKS = (_supports, _edges, _gravity, _values, _thick, _infinitely_long)

@@ -1,22 +1,81 @@
-"""The shell: a mid-surface with a thickness and a material."""
+"""The shell: a mid-surface with a thickness and a material, the same everywhere or not."""
 
 from __future__ import annotations
 
+from typing import Annotated, Any, Self
+
+from pydantic import BeforeValidator, Discriminator, Tag, model_validator
+
 from embedding.scene.materials import Material
+from embedding.scene.messages import TABLE, VALUE, refusal
 from embedding.scene.part import Part
 from embedding.scene.shapes import Shape
+from embedding.scene.surface_fields import ThicknessField, value_or_table
+from embedding.scene.texts import Name
 from embedding.scene.units import Density, Length, Ratio
+
+Thickness = Annotated[
+    Annotated[Length, Tag(VALUE)] | Annotated[ThicknessField, Tag(TABLE)],
+    Discriminator(value_or_table(ThicknessField)),
+]
+
+
+def _names(value: Any) -> Any:
+    if not isinstance(value, (list, tuple)) or not value or len(set(map(str, value))) < len(value):
+        raise refusal('must be a list of different names of faces, such as ["web"]')
+    return value
+
+
+class Region(Part):
+    """Faces of the shape with a thickness, a material or a density of their own; None: that of the shell."""
+
+    faces: Annotated[tuple[Name, ...], BeforeValidator(_names)]
+    thickness: Thickness | None = None
+    material: Material | None = None
+    density: Density | None = None
+
+    @model_validator(mode="after")
+    def _differs(self) -> Self:
+        if self.thickness is None and self.material is None and self.density is None:
+            raise refusal("a region needs a thickness, a material or a density", field="faces", value=self.faces)
+        return self
 
 
 class Shell(Part):
     """A thin body around ``shape``; permittivity and permeability are relative to vacuum, None if unknown.
 
-    ``density`` in kg/m^3 is needed under gravity.
+    ``thickness`` in m is a number or an expression of the place, ``density`` in kg/m^3 is needed under gravity.
+    ``regions`` are faces of the shape that differ from the rest.
     """
 
     shape: Shape
-    thickness: Length
+    thickness: Thickness
     material: Material
     density: Density | None = None
+    regions: tuple[Region, ...] = ()
     relative_permittivity: Ratio | None = None
     relative_permeability: Ratio | None = None
+
+    @property
+    def thickness_fields(self) -> dict[str, ThicknessField]:
+        """The thicknesses that vary over the surface, by the path of their field under ``shell``."""
+        stated: dict[str, Any] = {"thickness": self.thickness}
+        stated |= {f"regions.{i}.thickness": region.thickness for i, region in enumerate(self.regions)}
+        return {path: value for path, value in stated.items() if isinstance(value, ThicknessField)}
+
+    @property
+    def uniform(self) -> bool:
+        """Is it the same everywhere?"""
+        return not self.regions and not isinstance(self.thickness, ThicknessField)
+
+    @property
+    def thickest(self) -> float:
+        """The largest thickness, in m; of an expression the largest value at a few points of the shape."""
+        stated = [self.thickness, *(region.thickness for region in self.regions if region.thickness is not None)]
+        return max(_largest(value, self.shape) for value in stated)
+
+
+def _largest(thickness: float | ThicknessField, shape: Shape) -> float:
+    if isinstance(thickness, ThicknessField):
+        return max(thickness.values_at(shape.sample_points()), default=0.0)
+    return thickness

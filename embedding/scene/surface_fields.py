@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterable
 from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator
@@ -39,6 +40,7 @@ def _unit(si: str, noun: str, example: str) -> BeforeValidator:
     return BeforeValidator(check)
 
 
+Point = tuple[float, float, float]
 ExpressionText = Annotated[str, BeforeValidator(_expression)]
 
 
@@ -63,6 +65,17 @@ class SurfaceField(Part):
     def __call__(self, x: Any, y: Any, z: Any, functions: Functions = FLOAT_FUNCTIONS) -> Any:
         """The SI value at a point in m; on other objects than floats pass their ``functions``."""
         return self.factor * self.parsed(x, y, z, functions)
+
+    def value_at(self, point: Point) -> float:
+        """The SI value at ``point`` in m; nan where it has none."""
+        try:
+            return float(self(*point))
+        except (ArithmeticError, ValueError, TypeError):  # TypeError: a root of a negative number is complex
+            return math.nan
+
+    def values_at(self, points: Iterable[Point]) -> list[float]:
+        """The finite SI values at ``points`` in m."""
+        return [value for value in map(self.value_at, points) if math.isfinite(value)]
 
 
 class PressureField(SurfaceField):

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from embedding.errors import Problem
-from embedding.scene.surface_fields import ForceField, PressureField
+from embedding.scene.surface_fields import ForceField, PressureField, SurfaceField
 
 if TYPE_CHECKING:
     from embedding.scene.scene import Scene
@@ -51,13 +51,15 @@ def unsymmetric_field(scene: Scene) -> Iterator[Problem]:
         yield from _across("ambient.applied_field", scene.ambient.applied_field)
 
 
-def unsymmetric_pressures(scene: Scene) -> Iterator[Problem]:
-    """Pressures and surface forces that change when turned about the axis; compared at a few points."""
+def unsymmetric_expressions(scene: Scene) -> Iterator[Problem]:
+    """Thickness, pressures and surface forces that change when turned about the axis; compared at a few points."""
     size = scene.shell.shape.size
-    for name, pressure in scene.loads.pressure_fields.items():
-        if pressure.parsed.variables & {"x", "y"} and not _invariant(lambda *p, f=pressure: (f(*p),), size):
+    scalars: dict[str, SurfaceField] = {f"shell.{path}": field for path, field in scene.shell.thickness_fields.items()}
+    scalars |= {f"loads.{name}": pressure for name, pressure in scene.loads.pressure_fields.items()}
+    for path, field in scalars.items():
+        if field.parsed.variables & {"x", "y"} and not _invariant(lambda *p, f=field: (f(*p),), size):
             reason = f"must depend on x and y through x**2 + y**2 only {_PINNED}"
-            yield Problem(f"loads.{name}.expression", f"{pressure.expression} is not allowed: {reason}")
+            yield Problem(f"{path}.expression", f"{field.expression} is not allowed: {reason}")
     force = scene.loads.surface_force
     if isinstance(force, ForceField) and not _invariant(_turned(force.components), size):
         reason = f"must be the same when turned about the z axis, without a component around it, {_PINNED}"
@@ -65,7 +67,7 @@ def unsymmetric_pressures(scene: Scene) -> Iterator[Problem]:
         yield Problem("loads.surface_force.expression", f"[{shown}] is not allowed: {reason}")
 
 
-UNSYMMETRIC = (unsymmetric_vectors, unsymmetric_points, unsymmetric_field, unsymmetric_pressures)
+UNSYMMETRIC = (unsymmetric_vectors, unsymmetric_points, unsymmetric_field, unsymmetric_expressions)
 """The checks, one for each kind of thing that may break the symmetry."""
 
 

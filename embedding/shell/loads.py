@@ -32,13 +32,13 @@ class MechanicalLoads:
     ``edge_tractions`` and ``line_loads`` hold (name, force per reference length) in mesh components, ``edge_forces``
     loads in the frame of an edge, ``edge_moments`` (edge, moment per reference length) that turn the outward conormal
     towards the top, ``point_forces`` (place, force) of the whole body. ``body_force`` is per reference volume,
-    ``surface_force`` per reference area: components, or a coefficient function of shape (d,).
+    numbers or coefficient functions, ``surface_force`` per reference area: components, or a function of shape (d,).
     """
 
     pressure_top: Any
     pressure_bottom: Any
     edge_tractions: tuple[tuple[str, tuple[float, ...]], ...]
-    body_force: tuple[float, ...]
+    body_force: tuple[Any, ...]
     rim_is_free: bool
     variant: Variant
     edge_forces: tuple[EdgeForce, ...] = ()
@@ -68,6 +68,11 @@ class MechanicalLoads:
         return not (self.uniform and self.pressure_top == 0.0 and self.pressure_bottom == 0.0)
 
     @property
+    def heavy(self) -> bool:
+        """Is there a force per volume?"""
+        return any(not isinstance(component, float) or component != 0.0 for component in self.body_force)
+
+    @property
     def turning(self) -> bool:
         """Does any force follow its edge?"""
         return any(force.follows for force in self.edge_forces)
@@ -80,7 +85,7 @@ def dead_load_energy(domain: Domain, loads: MechanicalLoads, thickness: Any, u: 
     """
     measure = factor * domain.reduction.measure
     terms = []
-    if any(loads.body_force):
+    if loads.heavy:
         terms.append(-1 * measure * thickness * InnerProduct(CF(loads.body_force), u) * domain.surface())
     if loads.surface_force is not None:
         terms.append(-1 * measure * InnerProduct(CF(loads.surface_force), u) * domain.surface())

@@ -62,7 +62,8 @@ def _slenderness(problem: Problem, scalars: dict[str, float]) -> float:
     stretch = scalars["stretch"]
     across = scalars.get("axial_stretch", problem.system.physics.axial_stretch)
     other = across if problem.reduction.name == "plane-strain" else stretch
-    return problem.system.physics.thickness / problem.domain.curvature_radius / (stretch * stretch * other)
+    thickness = problem.scene.shell.thickest / problem.scales.length
+    return thickness / problem.domain.curvature_radius / (stretch * stretch * other)
 
 
 def _response(steps: Sequence[StepRecord]) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from typing import Any
 
 import ngsolve
@@ -12,18 +11,12 @@ from embedding.geometry.domain import Domain
 from embedding.geometry.places import locate
 from embedding.geometry.reduction import Reduction
 from embedding.scene import ForceField, PointLoad, PressureField, Scales, Scene
-from embedding.scene.surface_fields import SurfaceField
 from embedding.shell.edges import EdgeForce
 from embedding.shell.loads import MechanicalLoads
+from embedding.solving.expressions import over_surface
+from embedding.solving.shell import density_on
 
 Vector = tuple[float, float, float]
-FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
-    "sin": ngsolve.sin,
-    "cos": ngsolve.cos,
-    "exp": ngsolve.exp,
-    "sqrt": ngsolve.sqrt,
-    "tanh": lambda a: 1 - 2 / (ngsolve.exp(2 * a) + 1),
-}
 
 
 def mechanical_loads(scene: Scene, domain: Domain, scales: Scales) -> MechanicalLoads:
@@ -41,7 +34,7 @@ def mechanical_loads(scene: Scene, domain: Domain, scales: Scales) -> Mechanical
         pressure_top=_pressure(loads.pressure_top, reduction, scales),
         pressure_bottom=_pressure(loads.pressure_bottom, reduction, scales),
         edge_tractions=tuple((e.edge, line(e.traction)) for e in loads.edge_tractions if e.frame == "global"),
-        body_force=_body_force(scene, reduction, scales),
+        body_force=_body_force(scene, domain, scales),
         rim_is_free=loads.rim == "traction-free",
         variant=loads.variant,
         edge_forces=_edge_forces(scene, scales),
@@ -52,24 +45,17 @@ def mechanical_loads(scene: Scene, domain: Domain, scales: Scales) -> Mechanical
     )
 
 
-def over_surface(field: SurfaceField, reduction: Reduction, scales: Scales) -> Any:
-    """The SI values of ``field`` as a coefficient function on the dimensionless mesh."""
-    x, y, z = (scales.length * c for c in (ngsolve.x, ngsolve.y, ngsolve.z))
-    zero = ngsolve.CF(0.0)
-    place = {"3d": (x, y, z), "axisymmetric": (x, zero, y), "plane-strain": (x, y, zero)}[reduction.name]
-    return ngsolve.CF(field(*place, FUNCTIONS))
-
-
 def _pressure(pressure: float | PressureField, reduction: Reduction, scales: Scales) -> Any:
     if not isinstance(pressure, PressureField):
         return float(pressure) / scales.stress
     return over_surface(pressure, reduction, scales) / scales.stress
 
 
-def _body_force(scene: Scene, reduction: Reduction, scales: Scales) -> tuple[float, ...]:
-    density = scene.shell.density or 0.0
-    total = [b + density * g for b, g in zip(scene.loads.body_force, scene.loads.gravity, strict=True)]
-    return tuple(b / scales.force_density for b in reduction.project((total[0], total[1], total[2])))
+def _body_force(scene: Scene, domain: Domain, scales: Scales) -> tuple[Any, ...]:
+    force = domain.reduction.project(scene.loads.body_force)
+    pull = domain.reduction.project(scene.loads.gravity)
+    density = density_on(scene, domain) if any(pull) else 0.0
+    return tuple((b + density * g if g else b) / scales.force_density for b, g in zip(force, pull, strict=True))
 
 
 def _surface_force(scene: Scene, reduction: Reduction, scales: Scales) -> Any:

@@ -18,8 +18,8 @@ from embedding.geometry.domain import Domain, MeshSizes, build
 from embedding.geometry.reduction import Reduction
 from embedding.plan.decisions import Plan
 from embedding.scene import InfiniteCylinder, Scales, Scene
-from embedding.shell.laws import law_of
 from embedding.solving.loads import mechanical_loads
+from embedding.solving.shell import law_on, thickness_on
 from embedding.solving.supports import held_by_supports
 
 Array = npt.NDArray[np.float64]
@@ -97,8 +97,8 @@ def physics_of(scene: Scene, plan: Plan, scales: Scales, domain: Domain) -> Phys
     cylinder = shape if isinstance(shape, InfiniteCylinder) else None
     held = held_by_supports(scene, domain, scales)
     return Physics(
-        law=law_of(scene.shell.material, scales.stress),
-        thickness=scene.shell.thickness / scales.length,
+        law=law_on(scene, domain, scales),
+        thickness=thickness_on(scene, domain, scales),
         loads=mechanical_loads(scene, domain, scales),
         supports=held.components,
         axial_free=cylinder is not None and cylinder.axial == "free",

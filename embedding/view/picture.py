@@ -94,7 +94,8 @@ def _add_ambient(
 
 def _edge_radius(archive: Archive, step: int, size: float) -> float:
     """Half the thickness of the shell, as its cut is drawn; a thin shell is drawn thick enough to be seen."""
-    thickness = float(tomllib.loads(archive.scene)["shell"]["thickness"])
+    stated = tomllib.loads(archive.scene)["shell"]["thickness"]
+    thickness = float(stated) if isinstance(stated, (int, float)) else 0.0  # one that varies is drawn as a line
     shell = archive.block("shell")
     if "thickness_stretch" in shell.units:
         thickness *= float(shell.field("thickness_stretch", step).max())

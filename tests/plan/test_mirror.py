@@ -87,3 +87,9 @@ def test_loads_on_the_ends_of_a_cylinder(loads: dict[str, Any], expected: str) -
 )
 def test_supports_of_a_cylinder(supports: list[dict[str, Any]], expected: str) -> None:
     assert planes(CYLINDER, supports=supports) == expected
+
+
+def test_a_thickness_that_varies() -> None:
+    thickness = {"expression": f"1e-4 * (2 + x/{R} + (y/{R})**2 + z/{R})"}
+    scene = Scene(shell=SHELL | {"shape": SPHERE, "thickness": thickness}, model={"reduction": "3d"})
+    assert explain(scene).reduction.planes == ("y",)

@@ -50,7 +50,7 @@ COMPONENTS = "must be a list of 3 components [x, y, z]"
         (True, f"shell.thickness: true is not allowed: {LENGTH}"),
         (None, f"shell.thickness: none is not allowed: {LENGTH}"),
         ([1, 2], f"shell.thickness: [1, 2] is not allowed: {LENGTH}"),
-        ({}, f"shell.thickness: a table is not allowed: {LENGTH}"),
+        ({}, "shell.thickness.expression: missing: must be given"),
         ("", f'shell.thickness: "" is not allowed: not a number with a unit: {LENGTH}'),
         ("thin", f"shell.thickness: thin is not allowed: not a number with a unit: {LENGTH}"),
         ("0.2", f"shell.thickness: 0.2 is not allowed: text without a unit: {LENGTH}"),
@@ -181,8 +181,8 @@ KINDS = f"must be a table with kind = {ALL_KINDS}"
 @pytest.mark.parametrize(
     ("table", "line"),
     [
-        ({}, "shell: missing: must be a table with the keys shape, thickness, material, density, relative_permittivity, relative_permeability"),
-        ({"shell": 5}, "shell: 5 is not allowed: must be a table with the keys shape, thickness, material, density, relative_permittivity, relative_permeability"),
+        ({}, "shell: missing: must be a table with the keys shape, thickness, material, density, regions, relative_permittivity, relative_permeability"),
+        ({"shell": 5}, "shell: 5 is not allowed: must be a table with the keys shape, thickness, material, density, regions, relative_permittivity, relative_permeability"),
         ({"shell": shell(shape=5)}, f"shell.shape: 5 is not allowed: {KINDS}"),
         ({"shell": shell(shape=NeoHookean(shear_modulus=1))}, f"shell.shape: a NeoHookean is not allowed: {KINDS}"),
         ({"shell": shell(shape={"radius": 1})}, f'shell.shape.kind: missing: must be {ALL_KINDS}'),

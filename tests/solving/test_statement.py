@@ -136,3 +136,18 @@ def test_a_point_support_needs_a_corner() -> None:
     assert refusals(lambda: problem("plate", supports=supports)) == [
         f"supports.0.where: [{SIZE / 2.1}, 0.0, 0.0] is not allowed: must be a corner of the shape: there is no vertex of the mesh"
     ]
+
+
+def test_a_thickness_that_dips_below_zero_between_the_samples_is_refused() -> None:
+    """Seen only on the mesh."""
+    dip = {"expression": f"1 - 2*exp(-((x/{SIZE} - 0.75)/0.05)**2)", "unit": "mm"}
+    shell = {"shape": SHAPES["strip"], "thickness": dip, "material": MATERIAL}
+    scene = Scene(shell=shell, discretisation={"shell_size": SIZE / 50})
+    (line,) = refusals(lambda: Problem(scene, explain(scene)))
+    assert line.startswith("shell.thickness: -0.00")
+    assert line.endswith(" m is not allowed: must be greater than 0 everywhere")
+
+
+def test_a_uniform_thickness_stays_a_number() -> None:
+    assert problem("disc").system.physics.thickness == 0.01
+    assert isinstance(problem("disc").system.physics.thickness, float)

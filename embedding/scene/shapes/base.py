@@ -34,6 +34,11 @@ class Surface(Part):
         return ()
 
     @property
+    def faces(self) -> tuple[str, ...]:
+        """Names of the faces that regions of the shell may be made of."""
+        return ()
+
+    @property
     def reductions(self) -> tuple[str, ...]:
         """Dimensional reductions that can carry the shape, the general one first."""
         return ("3d",)

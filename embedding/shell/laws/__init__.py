@@ -5,6 +5,7 @@ from embedding.shell.laws.invariants import GentLaw, MooneyRivlinLaw, YeohLaw
 from embedding.shell.laws.koiter import KoiterLaw
 from embedding.shell.laws.law import IncompressibleLaw, Law
 from embedding.shell.laws.ogden import OgdenLaw
+from embedding.shell.laws.pieces import PiecewiseLaw, piecewise
 
 __all__ = [
     "GentLaw",
@@ -13,6 +14,8 @@ __all__ = [
     "Law",
     "MooneyRivlinLaw",
     "OgdenLaw",
+    "PiecewiseLaw",
     "YeohLaw",
     "law_of",
+    "piecewise",
 ]

@@ -1,0 +1,28 @@
+"""Expressions of a scene as coefficient functions on the dimensionless mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import ngsolve
+
+from embedding.geometry.reduction import Reduction
+from embedding.scene import Scales
+from embedding.scene.surface_fields import SurfaceField
+
+FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
+    "sin": ngsolve.sin,
+    "cos": ngsolve.cos,
+    "exp": ngsolve.exp,
+    "sqrt": ngsolve.sqrt,
+    "tanh": lambda a: 1 - 2 / (ngsolve.exp(2 * a) + 1),
+}
+
+
+def over_surface(field: SurfaceField, reduction: Reduction, scales: Scales) -> Any:
+    """The SI values of ``field``; in axisymmetry those of the half plane y = 0, x >= 0."""
+    x, y, z = (scales.length * c for c in (ngsolve.x, ngsolve.y, ngsolve.z))
+    zero = ngsolve.CF(0.0)
+    place = {"3d": (x, y, z), "axisymmetric": (x, zero, y), "plane-strain": (x, y, zero)}[reduction.name]
+    return ngsolve.CF(field(*place, FUNCTIONS))
