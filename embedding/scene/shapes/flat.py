@@ -124,7 +124,7 @@ class Annulus(Revolved):
 
 
 class TSection(Surface):
-    """Two square plates glued to a T: x = 0, 0 <= y, z <= length, and on top of it z = length, |x| <= length / 2.
+    """Two square plates glued to a T: x = 0, y and z in [0, length], and on top z = length, x in [-length/2, length/2].
 
     The normal of the vertical plate is +x, that of the horizontal one +z. Three plates meet in the line ``junction``.
     """

@@ -60,7 +60,7 @@ class Sphere(Surface):
 
 
 class Cylinder(Revolved):
-    """A cylinder around the z axis, |z| <= length / 2, with outward normal; or a panel of it.
+    """A cylinder around the z axis, z in [-length/2, length/2], with outward normal; or a panel of it.
 
     ``ends`` is "open", or "capped" by flat discs: then it is closed, with a kink along each end. ``half`` keeps the
     part z >= 0. The end at the smaller z is the edge ``end0``, the other ``end1``.
