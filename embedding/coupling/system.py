@@ -15,6 +15,7 @@ from embedding.coupling.tractions import FaceTractions
 from embedding.coupling.unknowns import SIDES, Unknowns
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits
+from embedding.shell.point_loads import point_load_vector
 
 
 class System:
@@ -36,6 +37,7 @@ class System:
         self.tractions = {face: FaceTractions(self.lagrangian, face) for face in self.unknowns.faces}
         if "axial" in self.unknowns:
             self.unknowns.field("axial").vec[0] = 1.0
+        self._point_forces = point_load_vector(domain, self.unknowns.trace, physics.loads)
         self.place_faces()
         self._held: tuple[str, ...] = ()
         self._solver = DirectSolver(self.unknowns.free(), symmetric=self.symmetric)
@@ -85,6 +87,9 @@ class System:
         """Internal minus external forces at the present state and load, a new vector."""
         residual = self.unknowns.state.vec.CreateVector()
         self.form.Apply(self.unknowns.state.vec, residual)
+        if self.physics.loads.point_forces:
+            forces = self.factors.mechanical.Get() * self._point_forces
+            residual.FV().NumPy()[self.unknowns.range("u")] -= forces
         return residual
 
     def linearise(self) -> None:

@@ -114,3 +114,19 @@ def test_the_weight_of_a_strip_goes_with_its_thickness() -> None:
     moved = (places.deformed - places.reference)[:, 0]
     exact = displacement(places.reference[:, 0], lambda s: weight * (1 - np.exp(-a * (SIZE - s))) / a)
     assert np.abs(moved - exact).max() < 1e-8 * exact.max()
+
+
+def test_a_strip_pulled_at_a_point() -> None:
+    """A force at its middle stretches the half that carries it: mu T (l - l^-3) = F per metre, and 1 beyond."""
+    stretch, thickness = 1.5, 1e-3
+    force = thickness * MU * (stretch - stretch**-3)
+    _, places = solved(
+        {"kind": "strip", "length": SIZE},
+        thickness,
+        supports=[{"where": "x0", "fix": ["x"]}, {"where": "surface", "fix": ["y"]}],
+        loads={"point_loads": [{"at": [SIZE / 2, 0, 0], "force": [force, 0, 0]}]},
+        discretisation={"order": 2, "shell_size": SIZE / 10},
+    )
+    x = places.reference[:, 0]
+    moved = (places.deformed - places.reference)[:, 0]
+    assert moved == pytest.approx((stretch - 1) * np.minimum(x, SIZE / 2), abs=1e-12)
