@@ -136,7 +136,8 @@ class Lagrangian:
         """The form of all unknowns together; w and the load factors are parameters."""
         trial = self.unknowns.trial
         residuals = self._residuals()
-        form = BilinearForm(self.unknowns.space, symmetric=not residuals)
+        condense = self.unknowns.condensed is not None
+        form = BilinearForm(self.unknowns.space, symmetric=not residuals, condense=condense)
         for term in self._shell_energies(trial):
             form += Variation(term).Compile()
         if self.physics.field is not None:
@@ -158,6 +159,8 @@ class Lagrangian:
             offset = OFFSET[face] * physics.thickness * kinematics.director
             shell = shell + measure * InnerProduct(_trace(values[f"tau_{face}"]), offset)
         terms.append(shell * surface)
+        if self.unknowns.bending is not None:
+            terms += self.unknowns.bending.energies(values, kinematics)
         terms += dead_load_energy(self.domain, physics.loads, physics.thickness, u, self.factors.mechanical)
         if self.pressure_has_potential:
             terms.append(measure * self._pressure_energy(kinematics, u, values.get("pressure")) * self.domain.surface())

@@ -47,3 +47,4 @@ class Physics:
     field: FieldPhysics | None
     prescribed: tuple[tuple[Place, int, float], ...] = ()
     clamped: tuple[str, ...] = ()
+    bending: bool = False

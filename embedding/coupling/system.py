@@ -40,7 +40,7 @@ class System:
         self._point_forces = point_load_vector(domain, self.unknowns.trace, physics.loads)
         self.place_faces()
         self._held: tuple[str, ...] = ()
-        self._solver = DirectSolver(self.unknowns.free(), symmetric=self.symmetric)
+        self._solver = self._direct_solver(())
 
     def place_faces(self) -> None:
         """Put the opened faces where the present displacement of the mid-surface has them."""
@@ -69,9 +69,14 @@ class System:
                 self.factors.volume.Set(volume)
         if held != self._held:
             self._held = held
-            self._solver = DirectSolver(self.unknowns.free(held), symmetric=self.symmetric)
+            self._solver = self._direct_solver(held)
         if self.potential is not None:
             self.potential.prescribe(field)
+
+    def _direct_solver(self, held: tuple[str, ...]) -> DirectSolver:
+        return DirectSolver(
+            self.unknowns.free(held), symmetric=self.symmetric, condensed=self.unknowns.condensed
+        )
 
     @property
     def free_count(self) -> int:
@@ -91,6 +96,12 @@ class System:
             forces = self.factors.mechanical.Get() * self._point_forces
             residual.FV().NumPy()[self.unknowns.range("u")] -= forces
         return residual
+
+    def refresh(self) -> None:
+        """Renew what the forms of bending measure rotations from; no residual changes by it, only what is small."""
+        if self.unknowns.bending is not None:
+            values = {name: self.unknowns.field(name) for name in self.unknowns.names}
+            self.unknowns.bending.refresh(self.lagrangian.kinematics(values))
 
     def linearise(self) -> None:
         """Assemble the tangent at the present state and load, for :meth:`solve`."""

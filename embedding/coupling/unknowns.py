@@ -5,6 +5,8 @@ name         unknown
 ===========  ===================================================================
 u            displacement of the mid-surface
 y_t, y_b     displacement of the top and bottom face (opened interface only)
+moment       bending moments (on a curve: q, see shell/bending/curve.py)
+rotation     rotations of the edges of the surface's elements
 tau_t, tau_b multipliers of the faces' places, minus the face tractions
 phi, jump    potential and its jump
 pressure     p_t - p_b under volume control
@@ -18,14 +20,17 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from ngsolve import BND, FESpace, GridFunction, NumberSpace
+import numpy.typing as npt
+from ngsolve import BND, COUPLING_TYPE, FESpace, GridFunction, NumberSpace
 
 from embedding.ambient.motion import symmetry_components
 from embedding.ambient.potential import PotentialSpaces
 from embedding.coupling.physics import Physics
 from embedding.geometry.domain import Domain
+from embedding.geometry.ends import directions, facets_named
 from embedding.geometry.places import Place, unknowns_at
 from embedding.geometry.spaces import Mask, TraceSpace, as_bits, plane_mask
+from embedding.shell.bending import CurveBending, Stiffness, SurfaceBending
 
 FACES = ("t", "b")
 SIDES = {"t": "outside", "b": "inside"}
@@ -39,6 +44,7 @@ class Unknowns:
         self.faces = FACES if physics.field is not None else ()
         self.opened = physics.opened if physics.field is not None else ()
         self.potential = _potential(domain, physics)
+        self.bending = _bending(domain, physics)
         self.trace = _displacement(domain, self._reach_of_u())
         self.face_free = self.trace.free  # supports hold the mid-surface; the faces only know symmetry
         _support(domain, self.trace, physics.supports)
@@ -52,12 +58,14 @@ class Unknowns:
             masks = [self.potential.free_phi] + ([self.potential.jump.free] if self.potential.jump else [])
             for name, space, mask in zip(("phi", "jump"), self.potential.spaces, masks, strict=False):
                 self._parts[name] = (space, mask)
+        self._parts |= self.bending.parts() if self.bending is not None else {}
         numbers = ["pressure"] * physics.volume_controlled + ["axial"] * physics.axial_free
-        self.rigid = free_rigid_motions(domain, self.trace)
+        self.rigid = free_rigid_motions(domain, self.trace, physics.clamped if physics.bending else ())
         for name in [*numbers, *(f"rigid{i}" for i in range(len(self.rigid)))]:
             self._parts[name] = (NumberSpace(domain.mesh), np.ones(1, bool))
         self.names = tuple(self._parts)
         self.space = FESpace([space for space, _ in self._parts.values()])
+        self.condensed = self._condense()
         self.state = GridFunction(self.space)
         self.trial = dict(zip(self.names, self.space.TrialFunction(), strict=True))
         self.test = dict(zip(self.names, self.space.TestFunction(), strict=True))
@@ -66,6 +74,18 @@ class Unknowns:
         """u itself moves the ambient only where a face lies at the mid-surface."""
         closed = [face for face in self.faces if face not in self.opened]
         return {0: "shell", 1: self.domain.materials(SIDES[closed[0]]) if closed else "", 2: ""}[len(closed)]
+
+    def _condense(self) -> Mask | None:
+        """Mark the unknowns that are eliminated element by element; all others stay in the global system."""
+        name = self.bending.condensed if self.bending is not None else None
+        if name is None:
+            return None
+        mask = np.zeros(self.space.ndof, bool)
+        mask[self.range(name)] = True
+        for number in np.flatnonzero(~mask):
+            if self.space.CouplingType(int(number)) == COUPLING_TYPE.LOCAL_DOF:
+                self.space.SetCouplingType(int(number), COUPLING_TYPE.INTERFACE_DOF)
+        return mask
 
     def __contains__(self, name: str) -> bool:
         return name in self._parts
@@ -98,6 +118,13 @@ def _potential(domain: Domain, physics: Physics) -> PotentialSpaces | None:
     return PotentialSpaces(domain, field.electrodes, field.grounded, field.applied, field.odd_planes)
 
 
+def _bending(domain: Domain, physics: Physics) -> SurfaceBending | CurveBending | None:
+    if not physics.bending:
+        return None
+    kind = SurfaceBending if domain.mesh.dim == 3 else CurveBending
+    return kind(domain, Stiffness(physics.law, physics.thickness), physics.clamped)
+
+
 def _displacement(domain: Domain, reach: str) -> TraceSpace:
     """Displacement space of the mid-surface with what symmetry and the axis hold."""
     trace = TraceSpace(domain.mesh, domain.sizes.order, reach=reach)
@@ -111,18 +138,25 @@ def _support(domain: Domain, trace: TraceSpace, supports: tuple[tuple[Place, int
         trace.fix(component, unknowns_at(domain, trace.scalar, place))
 
 
-def free_rigid_motions(domain: Domain, trace: TraceSpace) -> list[Any]:
+def free_rigid_motions(domain: Domain, trace: TraceSpace, clamped: tuple[str, ...] = ()) -> list[Any]:
     """Rigid motions that the supports and mirror planes leave free, as coefficient functions of shape (d,)."""
     motions = domain.reduction.rigid_motions()
     held = ~trace.free
-    if not motions or not held.any():
+    if not motions or not (held.any() or clamped):
         return motions
     field = GridFunction(trace.space)
     columns = []
     for motion in motions:
         field.Set(motion, BND, definedon=domain.shell)
         columns.append(np.array(field.vec.FV().NumPy())[held])
-    _, sizes, rows = np.linalg.svd(np.array(columns).T, full_matrices=True)
+    turns = _held_axes(domain, clamped) @ domain.reduction.rotations().T
+    _, sizes, rows = np.linalg.svd(np.concatenate([np.array(columns).T, turns]), full_matrices=True)
     rank = int((sizes > 1e-6 * max(1.0, sizes.max(initial=0.0))).sum())
     free = rows[rank:]
     return [sum((float(c) * m for c, m in zip(row, motions, strict=True)), 0 * motions[0]) for row in free]
+
+
+def _held_axes(domain: Domain, clamped: tuple[str, ...]) -> npt.NDArray[np.float64]:
+    """Unit vectors about which the shell cannot turn, where its rotation is held; shape (n, 3)."""
+    facets = facets_named(domain.facets, clamped)
+    return np.tile([0.0, 0.0, 1.0], (len(facets), 1)) if domain.mesh.dim == 2 else directions(domain.facets, facets)

@@ -109,3 +109,14 @@ class Reduction:
             return along + ([] if self.planes else [CF((-y, x))])
         turns = {"x": CF((0, -z, y)), "y": CF((z, 0, -x)), "z": CF((-y, x, 0))}
         return along + [turn for axis, turn in turns.items() if set(self.planes) <= {axis}]
+
+    def rotations(self) -> Array:
+        """Rotation vector of each of the :meth:`rigid_motions`, shape (n, 3)."""
+        if self.name == "axisymmetric":
+            return np.zeros((1, 3))
+        shifts = np.zeros((sum(axis not in self.planes for axis in self.axes), 3))
+        if self.name == "plane-strain":
+            turns = np.zeros((0, 3)) if self.planes else np.array([[0.0, 0.0, 1.0]])
+        else:
+            turns = np.array([np.eye(3)[i] for i, axis in enumerate("xyz") if set(self.planes) <= {axis}]).reshape(-1, 3)
+        return np.concatenate([shifts, turns])

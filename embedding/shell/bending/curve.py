@@ -1,0 +1,90 @@
+"""Bending of a shell that the mesh shows as a curve: the meridian in axisymmetry, the cross-section in plane strain.
+
+The mixed method shrinks to one continuous scalar along the curve. With theta the angle from the reference tangent to
+the deformed one and c = +-1 the hand of tangent and normal, b_ss = c |F t| (theta_0' + theta'), so that
+
+    K_ss = lambda b_ss - B_ss C_ss = c theta' / hoop + B_ss (1 / hoop - C_ss)
+    K_hh = lambda b_hh - B_hh C_hh = - lambda n_r hoop / R + N_r hoop^2 / R        (axisymmetry; 0 in plane strain)
+
+The unknown is q = m_ss R / hoop (plane strain: m_ss / hoop), continuous where the moment balance wants it; integrated by
+parts, int q c theta' = - int c q' theta, neither second derivatives nor jumps appear, and kinks keep their angle.
+Where a rotation is free q is given (the moment there, or 0); where it is held q is free, and the angle is held by the
+equation itself. Source: theory page, "Bending".
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from ngsolve import BND, CF, H1, Grad, GridFunction, InnerProduct, Parameter, SurfaceL2, atan2, cos, sin, specialcf, x
+
+from embedding.geometry.domain import Domain
+from embedding.geometry.ends import facets_named
+from embedding.geometry.spaces import Mask, TraceSpace
+from embedding.shell.bending.stiffness import Stiffness
+from embedding.shell.kinematics import Kinematics, surface_gradient
+
+
+class CurveBending:
+    """Space and energy of bending on a curve; ``held`` names the ends whose rotation is held."""
+
+    def __init__(self, domain: Domain, stiffness: Stiffness, held: tuple[str, ...]) -> None:
+        self.domain, self.stiffness = domain, stiffness
+        self._trace = TraceSpace(domain.mesh, domain.sizes.order, vector=False, reach="shell")
+        self._axisymmetric = domain.reduction.name == "axisymmetric"
+        free_ends = facets_named(domain.facets, set(domain.rims) - set(held))
+        fixed = np.zeros(self._trace.scalar.ndof, bool)
+        fixed[free_ends] = True
+        if self._axisymmetric:
+            fixed[[v.nr for v in domain.mesh.vertices if abs(v.point[0]) < 1e-9]] = True
+        self._trace.fix(0, fixed)
+        self._turned = GridFunction(SurfaceL2(domain.mesh, order=domain.sizes.order, definedon=domain.shell))
+        self._tangent = specialcf.tangential(2)
+        self._slope = domain.sign * Grad(specialcf.normal(2))
+        self._hand = InnerProduct(domain.normal, CF((-self._tangent[1], self._tangent[0])))
+
+    condensed = None
+
+    def parts(self) -> dict[str, tuple[Any, Mask]]:
+        """The space of q, with its free unknowns."""
+        return {"moment": (self._trace.space, self._trace.free)}
+
+    def energies(self, values: dict[str, Any], kinematics: Kinematics) -> list[Any]:
+        """Integrals whose stationary point in the moment is the bending energy."""
+        q = values["moment"]
+        measure = self.domain.reduction.measure
+        per_radius = measure / x if self._axisymmetric else measure
+        along = InnerProduct(surface_gradient(q), self._tangent)
+        pairing = -1 * per_radius * self._hand * along * self._angle(kinematics)
+        moment = self._moment(q, kinematics)
+        t, hoop = self._tangent, kinematics.hoop
+        stretched = kinematics.deformation_gradient * t
+        B = -1 * InnerProduct(t, self._slope * t)
+        rest = moment * B * (1 / hoop - InnerProduct(stretched, stretched))
+        rest = rest - self.stiffness.partial_dual(kinematics, moment, self._hoop_curvature(kinematics))
+        return [(pairing + measure * rest) * self.domain.surface()]
+
+    def _moment(self, q: Any, kinematics: Kinematics) -> Any:
+        """m_ss from the unknown q."""
+        value = q.Trace() if hasattr(q, "Trace") else q
+        return value * kinematics.hoop / x if self._axisymmetric else value * kinematics.hoop
+
+    def _hoop_curvature(self, kinematics: Kinematics) -> Any:
+        if not self._axisymmetric:
+            return CF(0.0)
+        hoop, N = kinematics.hoop, kinematics.reference_normal
+        return (N[0] * hoop - kinematics.director[0]) * hoop / x
+
+    def _angle(self, kinematics: Kinematics) -> Any:
+        """theta, counted on past pi from the angle of the last refresh."""
+        t, moved = self._tangent, kinematics.deformation_gradient * self._tangent
+        sine, cosine = t[0] * moved[1] - t[1] * moved[0], InnerProduct(t, moved)
+        s, c = sin(self._turned), cos(self._turned)
+        return self._turned + atan2(c * sine - s * cosine, c * cosine + s * sine)
+
+    def refresh(self, kinematics: Kinematics) -> None:
+        """Count the angle on from the present state, given by its ``kinematics`` on grid functions."""
+        angle = GridFunction(self._turned.space)
+        angle.Set(self._angle(kinematics), BND, definedon=self.domain.shell)
+        self._turned.vec.data = angle.vec

@@ -1,0 +1,60 @@
+"""The bending energy of a law in terms of moments: its Legendre transform, polynomial in the moment.
+
+The curvature measure is K = lambda b - sym(B C) (the paper's C_1 / -2): a shell of incompressible material that is
+blown up without changing its shape bends by it, and K = b - B where strains are small. With mu_b the shear modulus of
+the state (for neo-Hooke it is mu) and C the surface Cauchy-Green tensor, the second-order expansion over the thickness
+of the plane-stress energy is
+
+    W_b(K) = mu_b T^3 / (12 J_s^2) [tr(C^-1 K)^2 + tr(C^-1 K C^-1 K)]
+
+and its dual, with M = F m F^T the pushed forward moment, has no inverse in it:
+
+    W_b*(m) = 3 J_s^2 / (mu_b T^3) [M : M - (tr M)^2 / 3].
+
+For St Venant and Kirchhoff, W_b(K) = 1/2 K : D : K with the plane-stress moduli times T^3/12, and
+W_b*(m) = 6 / (E T^3) [(1 + nu) m : m - nu (tr m)^2]. Source: theory page, "Bending".
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from ngsolve import InnerProduct, Trace
+
+from embedding.shell.kinematics import Kinematics
+
+
+@dataclass(frozen=True)
+class Stiffness:
+    """Bending stiffness of a shell of ``thickness`` (dimensionless number or coefficient function) and ``law``."""
+
+    law: Any
+    thickness: Any
+
+    def dual(self, kinematics: Kinematics, moment: Any) -> Any:
+        """W_b*(m) per reference area for the 3 x 3 moment tensor ``moment`` of a surface."""
+        cubed = self.thickness**3
+        if not self.law.incompressible:
+            E, nu = self.law.youngs, self.law.poisson
+            return 6 / (E * cubed) * ((1 + nu) * InnerProduct(moment, moment) - nu * Trace(moment) ** 2)
+        F = kinematics.deformation_gradient
+        pushed = (F * moment) * F.trans
+        scale = 3 * kinematics.surface_stretch_squared / (self.law.bending_modulus(kinematics) * cubed)
+        return scale * (InnerProduct(pushed, pushed) - Trace(pushed) ** 2 / 3)
+
+    def partial_dual(self, kinematics: Kinematics, moment: Any, hoop: Any) -> Any:
+        """sup over K_ss of m K_ss - W_b(K_ss, K_hh): dual in the meridional direction of a curve alone.
+
+        ``moment`` is the meridional moment m_ss, ``hoop`` the curvature measure K_hh of the direction that the mesh
+        does not show (0 in plane strain).
+        """
+        if not self.law.incompressible:
+            E, nu = self.law.youngs, self.law.poisson
+            D = E * self.thickness**3 / (12 * (1 - nu**2))
+            return (moment - D * nu * hoop) ** 2 / (2 * D) - D / 2 * hoop**2
+        A = self.law.bending_modulus(kinematics) * self.thickness**3 / (12 * kinematics.surface_stretch_squared)
+        F = kinematics.deformation_gradient
+        along = InnerProduct(F, F)
+        relative = hoop / kinematics.hoop**2
+        return (moment * along - 2 * A * relative) ** 2 / (8 * A) - 2 * A * relative**2

@@ -1,0 +1,139 @@
+"""Bending of a surface in space: moments inside the elements, rotations on their edges.
+
+The moment tensor m lives element by element and is eliminated there; its normal-normal component is made continuous
+by one rotation per edge, which is what remains beside the displacement. With d = lambda n, N the reference normal,
+t and nu the tangent and the outward conormal of an element's edge,
+
+    sum over elements of  int m : [Hess(u) . d - (N . d) Grad N + sym(Grad N C)]  +  oint (angle / |F t| + rotation) m_nu_nu
+
+is m : K with the distributional K = lambda b - sym(B C), B = -Grad N: the edge terms carry the angle between
+neighbouring elements. It is measured on each side from a common direction, the averaged normal of the present state;
+the sum of the two sides does not depend on it, so it may be renewed at any time. Kinks and branches of the reference
+keep their angle.
+
+Source: M. Neunteufel and J. Schoeberl, The Hellan-Herrmann-Johnson method for nonlinear shells, Comput. Struct. 225
+(2019) 106109; the weight 1 / |F t| is the push-forward of the pairing, see the theory page, "Bending".
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from ngsolve import (
+    ET,
+    Cross,
+    Grad,
+    GridFunction,
+    HDivDivSurface,
+    InnerProduct,
+    IntegrationRule,
+    NormalFacetSurface,
+    VectorFacetSurface,
+    atan2,
+    ds,
+    specialcf,
+    sqrt,
+)
+
+from embedding.geometry.domain import Domain
+from embedding.geometry.ends import directions, facets_named, facets_on_plane, unknowns_on
+from embedding.geometry.spaces import ON_PLANE, Mask, as_mask
+from embedding.shell.bending.stiffness import Stiffness
+from embedding.shell.kinematics import Kinematics
+
+LEANING = 0.7
+"""Largest cosine between a normal and the plane's axis for a shell that counts as crossing that plane."""
+
+
+class SurfaceBending:
+    """Spaces and energy of bending on the triangles of ``domain``'s shell.
+
+    ``held`` names the edges whose rotation is held; edges on mirror planes hold it by themselves.
+    """
+
+    condensed = "moment"
+
+    def __init__(self, domain: Domain, stiffness: Stiffness, held: tuple[str, ...]) -> None:
+        self.domain, self.stiffness = domain, stiffness
+        mesh, order = domain.mesh, domain.sizes.order - 1
+        self._moment = HDivDivSurface(mesh, order=order, discontinuous=True, definedon=domain.shell)
+        self._rotation = NormalFacetSurface(mesh, order=order, definedon=domain.shell)
+        self._held = facets_named(domain.facets, held)
+        axis = self._square_axes(self._held)
+        self._fixed = self._held[axis < 0]
+        self._mirrored = [(i, self._held[axis == i]) for i in range(3)]
+        planes = [i for i, name in enumerate("xyz") if name in domain.reduction.planes]
+        self._mirrored += [(i, facets_on_plane(domain.facets, i)) for i in planes]
+        frame = VectorFacetSurface(mesh, order=order, definedon=domain.shell)
+        self._reference, self._average = GridFunction(frame), GridFunction(frame)
+        self._sign = domain.sign
+        self._average_of(domain.normal, self._reference)
+        self._average.vec.data = self._reference.vec
+        points = 2 * order + 1
+        self._surface = ds("shell", intrules={ET.TRIG: IntegrationRule(ET.TRIG, points)})
+        self._edges = ds(
+            definedon=domain.shell, element_boundary=True, intrules={ET.SEGM: IntegrationRule(ET.SEGM, points)}
+        )
+
+    def _square_axes(self, edges: Any) -> Any:
+        """For each edge the coordinate axis square to it and most nearly square to the normal, -1 without one.
+
+        Where an edge lies in a plane and may move in it, the normal stays in that plane; the frame follows it there.
+        """
+        facets = self.domain.facets
+        normals = np.zeros((facets.count, 3))
+        normals[facets.of_element] = facets.at_facets(self.domain.normal)
+        leaning = np.abs(normals[edges]) + 2.0 * (np.abs(directions(facets, edges)) > ON_PLANE)
+        return np.where(leaning.min(axis=1, initial=2.0) < LEANING, leaning.argmin(axis=1), -1)
+
+    def parts(self) -> dict[str, tuple[Any, Mask]]:
+        """The spaces by name, with their free unknowns."""
+        free = as_mask(self._rotation.FreeDofs())
+        for edges in [self._held, *(edges for _, edges in self._mirrored)]:
+            free[unknowns_on(self._rotation, edges)] = False
+        return {"moment": (self._moment, as_mask(self._moment.FreeDofs())), "rotation": (self._rotation, free)}
+
+    def energies(self, values: dict[str, Any], kinematics: Kinematics) -> list[Any]:
+        """Integrals whose stationary point in moment and rotation is the bending energy.
+
+        They are kept apart because each compiles to its own product of few unknowns, which is the faster assembly.
+        """
+        copies = self.domain.reduction.measure
+        moment, rotation = values["moment"].Trace(), values["rotation"].Trace()
+        F, d, N = kinematics.deformation_gradient, kinematics.director, kinematics.reference_normal
+        slope = self._sign * Grad(specialcf.normal(3))  # Grad N = -B
+        bent = InnerProduct((values["u"].Operator("hesseboundary").trans * d).Reshape((3, 3)), moment)
+        rest = InnerProduct(F * slope, F * moment) - InnerProduct(N, d) * InnerProduct(slope, moment)
+        rest = rest - self.stiffness.dual(kinematics, moment)
+        return [
+            copies * bent * self._surface,
+            copies * rest * self._surface,
+            copies * self._edge_density(kinematics, moment, rotation) * self._edges,
+        ]
+
+    def _edge_density(self, kinematics: Kinematics, moment: Any, rotation: Any) -> Any:
+        t = specialcf.tangential(3)
+        nu = Cross(specialcf.normal(3), t)
+        stretched = kinematics.deformation_gradient * t
+        length = sqrt(InnerProduct(stretched, stretched))
+        m = kinematics.area_vector
+        across = self._sign * InnerProduct(Cross(m, stretched), self._average)
+        angle = atan2(across, length * InnerProduct(m, self._average))
+        N = kinematics.reference_normal
+        angle_0 = atan2(InnerProduct(nu, self._reference), InnerProduct(N, self._reference))
+        turn = (angle_0 - angle) / length + self._sign * InnerProduct(rotation, nu)
+        return turn * moment[nu, nu]
+
+    def refresh(self, kinematics: Kinematics) -> None:
+        """Take the averaged normal from the present state, given by its ``kinematics`` on grid functions."""
+        self._average_of(kinematics.area_vector, self._average)
+
+    def _average_of(self, normal: Any, target: GridFunction) -> None:
+        target.Set(normal, dual=True, definedon=self.domain.shell)
+        values = target.vec.FV().NumPy()
+        if target is not self._reference:
+            fixed = unknowns_on(target.space, self._fixed, range(3))
+            values[fixed] = self._reference.vec.FV().NumPy()[fixed]
+        for component, edges in self._mirrored:
+            values[unknowns_on(target.space, edges, (component,))] = 0.0
