@@ -14,6 +14,7 @@ from embedding.coupling.physics import Physics
 from embedding.coupling.tractions import FaceTractions
 from embedding.coupling.unknowns import SIDES, Unknowns
 from embedding.geometry.domain import Domain
+from embedding.geometry.places import displaced
 from embedding.geometry.spaces import as_bits
 from embedding.shell.point_loads import point_load_vector
 
@@ -38,6 +39,7 @@ class System:
         if "axial" in self.unknowns:
             self.unknowns.field("axial").vec[0] = 1.0
         self._point_forces = point_load_vector(domain, self.unknowns.trace, physics.loads)
+        self._displaced = displaced(domain, self.unknowns.trace, physics.prescribed)
         self.place_faces()
         self._held: tuple[str, ...] = ()
         self._solver = self._direct_solver(())
@@ -53,12 +55,14 @@ class System:
             y.vec.FV().NumPy()[~self.unknowns.face_free] = 0.0
 
     def load(self, mechanical: float, field: float, volume: float | None, pressure: float | None = None) -> None:
-        """Set the load factors.
+        """Set the load factors, and move what is held at a displacement.
 
         Where the path controls the volume somewhere, p_t - p_b is an unknown: free when ``volume`` (a ratio) is
         given, else held at ``pressure``.
         """
         self.factors.mechanical.Set(mechanical)
+        where, displacements = self._displaced
+        self.unknowns.field("u").vec.FV().NumPy()[where] = mechanical * displacements
         self.factors.field.Set(field)
         held: tuple[str, ...] = ()
         if "pressure" in self.unknowns:

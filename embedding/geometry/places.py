@@ -14,7 +14,7 @@ import numpy.typing as npt
 from ngsolve import BND, ET, ElementId, Mesh
 
 from embedding.geometry.domain import Domain
-from embedding.geometry.spaces import Mask, scalar_mask
+from embedding.geometry.spaces import Mask, TraceSpace, scalar_mask
 
 Array = npt.NDArray[np.float64]
 Place = str | tuple[float, ...]
@@ -90,6 +90,20 @@ def unknowns_at(domain: Domain, space: Any, place: Place) -> Mask:
     mask = np.zeros(space.ndof, bool)
     mask[vertex] = True  # the first unknowns of H1 are the values at the vertices
     return mask
+
+
+def displaced(
+    domain: Domain, trace: TraceSpace, prescribed: tuple[tuple[Place, int, float], ...]
+) -> tuple[npt.NDArray[np.int64], Array]:
+    """Unknowns of ``trace`` that (place, component, displacement) entries prescribe, and their values."""
+    block = trace.space.ndof // trace.components
+    values: dict[int, float] = {}
+    for place, component, displacement in prescribed:
+        held = np.flatnonzero(unknowns_at(domain, trace.scalar, place))
+        numbers = component * block + trace.in_block(list(held))
+        # A constant is its value at the vertices; all other functions of the basis vanish there.
+        values |= {int(n): displacement * (dof < domain.mesh.nv) for n, dof in zip(numbers, held, strict=True)}
+    return np.array(list(values), dtype=np.int64), np.array(list(values.values()), dtype=np.float64)
 
 
 def _place(mesh: Mesh, vertex: Any) -> Array:

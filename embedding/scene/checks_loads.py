@@ -118,4 +118,13 @@ def _along_z(scene: Scene) -> Iterator[tuple[str, float]]:
         yield f"supports.{number}.displacement.2", support.displacement[2]
 
 
+def needs_bending(scene: Scene) -> tuple[Problem, ...]:
+    """Loads and supports that only a shell with bending stiffness can carry."""
+    reason = "needs a shell that resists bending, and this one is a membrane"
+    moments = [f"loads.edge_moments.{number}" for number in range(len(scene.loads.edge_moments))]
+    held = [(number, support) for number, support in enumerate(scene.supports) if support.kind != "symmetry"]
+    turned = [f"supports.{n}.{'kind' if s.kind else 'fix'}" for n, s in held if "rotation" in s.held]
+    return tuple(Problem(path, reason) for path in (*moments, *turned))
+
+
 LOAD_CHECKS = (_supports, _edges, _gravity, _values, _thick, _infinitely_long)

@@ -18,6 +18,7 @@ from embedding.geometry.domain import Domain, MeshSizes, build
 from embedding.geometry.reduction import Reduction
 from embedding.plan.decisions import Plan
 from embedding.scene import InfiniteCylinder, Scales, Scene
+from embedding.scene.checks_loads import needs_bending
 from embedding.solving.loads import mechanical_loads
 from embedding.solving.shell import law_on, thickness_on
 from embedding.solving.supports import held_by_supports
@@ -74,7 +75,7 @@ def refuse_unmodelled(scene: Scene) -> None:
     """Refuse combinations that are valid statements but not modelled by this version."""
     shape = scene.shell.shape
     open_tube = isinstance(shape, InfiniteCylinder) and shape.axial == "free"
-    problems = []
+    problems = list(needs_bending(scene))
     if open_tube and scene.ambient is not None:
         problems.append(SceneProblem("shell.shape.axial", '"free" is not allowed with an ambient: use "held"'))
     controlled = any(stage.volume_ratio is not None for stage in scene.path)

@@ -98,6 +98,30 @@ def test_a_strip_whose_thickness_varies(expression: str) -> None:
     assert np.abs(moved - exact).max() < 1e-8 * exact.max()
 
 
+def test_a_strip_drawn_out() -> None:
+    """The displacement of the end is given, the force it takes is t: T(X) mu (l - l^-3) = t inside, too."""
+    pull = 80.0
+
+    def stress(s: Array) -> Array:
+        return np.asarray(pull / (1e-3 * (1 + 4 * s)))
+
+    end = float(displacement(np.array([SIZE]), stress)[0])
+    _, places = solved(
+        {"kind": "strip", "length": SIZE},
+        {"expression": "1e-3 * (1 + 4*x)"},
+        supports=[
+            {"where": "x0", "fix": ["x"]},
+            {"where": "x1", "fix": ["x"], "displacement": [end, 0, 0]},
+            {"where": "surface", "fix": ["y"]},
+        ],
+        discretisation={"order": 4, "shell_size": SIZE / 10},
+    )
+    moved = (places.deformed - places.reference)[:, 0]
+    exact = displacement(places.reference[:, 0], stress)
+    assert end > 0.15 * SIZE
+    assert np.abs(moved - exact).max() < 1e-8 * end
+
+
 def test_the_weight_of_a_strip_goes_with_its_thickness() -> None:
     """Weight and strength are both in proportion to T: with T = T_0 exp(-a X) and the end at L
 

@@ -7,11 +7,15 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import ngsolve
 import numpy as np
 import pytest
 
 from embedding import Scene, explain
+from embedding.geometry.places import locate
+from embedding.solving.loads import mechanical_loads
 from embedding.solving.problem import Problem
+from embedding.solving.supports import held_by_supports
 from tests.scene.samples import MATERIAL, refusals
 
 MU, SIZE = 1e5, 0.02
@@ -46,7 +50,6 @@ def test_every_load_is_measured_in_moduli_and_sizes() -> None:
             {"edge": "y0", "traction": [0, 20, 0], "frame": "edge", "kind": "follower"},
         ],
         "line_loads": [{"line": "y1", "force": [0, 0, 2000]}],
-        "edge_moments": [{"edge": "x1", "moment": 4}],
         "point_loads": [{"at": [SIZE / 2, SIZE / 4, 0], "force": [0, 0, 40]}],
     }
     stated = problem("plate", loads=loads).system.physics.loads
@@ -56,7 +59,6 @@ def test_every_load_is_measured_in_moduli_and_sizes() -> None:
     assert [(f.edge, f.follows) for f in stated.edge_forces] == [("x1", False), ("y0", True)]
     assert stated.edge_forces[0].components == pytest.approx((0.01, 0, 0.02))
     assert stated.line_loads == (("y1", pytest.approx((0, 0, 1))),)
-    assert stated.edge_moments == (("x1", pytest.approx(0.1)),)
     assert stated.point_forces == ((pytest.approx((0.5, 0.25, 0)), pytest.approx((0, 0, 1))),)
 
 
@@ -120,15 +122,34 @@ def test_what_is_held_where() -> None:
         {"where": [SIZE, SIZE / 2, 0], "fix": ["z"]},
         {"where": "x1", "fix": ["rotation"]},
     ]
-    made = problem("plate", supports=supports)
-    physics, trace = made.system.physics, made.system.unknowns.trace
+    made = problem("plate")
+    scene = made.scene.model_copy(update={"supports": supports})
+    held = held_by_supports(scene, made.domain, made.scales)
     corner = (1.0, 0.5, 0.0)
-    assert physics.supports == (("x0", 0), ("x0", 1), ("x0", 2), (corner, 2))
-    assert physics.prescribed == (("x0", 2, pytest.approx(0.1)),)
-    assert physics.clamped == ("x0", "x1")
+    assert held.components == (("x0", 0), ("x0", 1), ("x0", 2), (corner, 2))
+    assert held.prescribed == (("x0", 2, pytest.approx(0.1)),)
+    assert held.clamped == ("x0", "x1")
+
+
+def test_a_held_edge_and_a_held_corner() -> None:
+    """What moves with the load's factor: an edge as a whole, and a corner."""
+    supports = [
+        {"where": "x0", "kind": "pinned", "displacement": [0, 0, SIZE / 10]},
+        {"where": [SIZE, SIZE / 2, 0], "fix": ["z"], "displacement": [0, 0, -SIZE]},
+    ]
+    made = problem("plate", supports=supports)
+    system, trace = made.system, made.system.unknowns.trace
     held = ~trace.free.reshape(3, -1)
     assert held[2].sum() == held[0].sum() + 1
     assert np.array_equal(held[0], held[1])
+    system.load(0.5, 0.0, None)
+    u = system.unknowns.field("u")
+    line = ngsolve.dx(definedon=made.mesh.BBoundaries("x0"))
+    assert ngsolve.Integrate(u[2] * line, made.mesh) == pytest.approx(0.05 * 0.5, abs=1e-14)
+    assert ngsolve.Integrate((u[2] - 0.05) ** 2 * line, made.mesh) == pytest.approx(0.0, abs=1e-28)
+    at = locate(made.domain, (1.0, 0.5, 0.0))
+    trafo = made.mesh.GetTrafo(ngsolve.ElementId(ngsolve.BND, at.element))
+    assert u(trafo(*at.local))[2] == pytest.approx(-0.5, abs=1e-14)
 
 
 def test_a_point_support_needs_a_corner() -> None:
@@ -151,3 +172,24 @@ def test_a_thickness_that_dips_below_zero_between_the_samples_is_refused() -> No
 def test_a_uniform_thickness_stays_a_number() -> None:
     assert problem("disc").system.physics.thickness == 0.01
     assert isinstance(problem("disc").system.physics.thickness, float)
+
+
+def test_a_moment_is_measured_in_forces() -> None:
+    made = problem("plate")
+    scene = made.scene.model_copy(update={"loads": {"edge_moments": [{"edge": "x1", "moment": 4}]}})
+    assert mechanical_loads(scene, made.domain, made.scales).edge_moments == (("x1", pytest.approx(0.1)),)
+
+
+def test_what_a_membrane_cannot_carry_is_refused() -> None:
+    supports = [
+        {"where": "x0", "kind": "clamped"},
+        {"where": "x1", "fix": ["z", "rotation"]},
+        {"where": "y0", "kind": "symmetry"},
+    ]
+    reason = "needs a shell that resists bending, and this one is a membrane"
+    loads = {"edge_moments": [{"edge": "y1", "moment": 4}]}
+    assert refusals(lambda: problem("plate", supports=supports, loads=loads)) == [
+        f"loads.edge_moments.0: {reason}",
+        f"supports.0.kind: {reason}",
+        f"supports.1.fix: {reason}",
+    ]
