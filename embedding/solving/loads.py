@@ -23,9 +23,11 @@ def mechanical_loads(scene: Scene, domain: Domain, scales: Scales) -> Mechanical
     """The loads of ``scene`` in mesh components.
 
     Raises:
-        SceneError: a point load is not on the mid-surface.
+        SceneError: a point load is not on the mid-surface, or a line within the shell is loaded like an edge.
     """
     loads, reduction = scene.loads, domain.reduction
+    if problems := _lines_inside(scene, domain):
+        raise SceneError(problems)
 
     def line(traction: Vector) -> tuple[float, ...]:
         return tuple(t / scales.line_force for t in reduction.project(traction))
@@ -74,6 +76,16 @@ def _edge_forces(scene: Scene, scales: Scales) -> tuple[EdgeForce, ...]:
 
     framed = [edge for edge in scene.loads.edge_tractions if edge.frame == "edge"]
     return tuple(EdgeForce(e.edge, scaled(e.traction), e.kind == "follower") for e in framed)
+
+
+def _lines_inside(scene: Scene, domain: Domain) -> list[Problem]:
+    """Loads that need the frame of an edge, on lines where there is none because the shell goes on."""
+    loads = scene.loads
+    framed = [(f"edge_tractions.{i}.edge", e.edge) for i, e in enumerate(loads.edge_tractions) if e.frame == "edge"]
+    framed += [(f"edge_moments.{i}.edge", moment.edge) for i, moment in enumerate(loads.edge_moments)]
+    inside = set(domain.mesh.GetBBoundaries()) - set(domain.rims)
+    reason = "is not allowed: the shell goes on there, so that the line has no outward direction"
+    return [Problem(f"loads.{path}", f'"{edge}" {reason}') for path, edge in framed if edge in inside]
 
 
 def _point_forces(

@@ -34,7 +34,8 @@ def held_by_supports(scene: Scene, domain: Domain, scales: Scales) -> Held:
     components: list[tuple[Place, int]] = []
     prescribed: list[tuple[Place, int, float]] = []
     problems: list[Problem] = []
-    for number, support in enumerate(scene.supports):
+    meshed = [(n, support) for n, support in enumerate(scene.supports) if _is_meshed(support, domain)]
+    for number, support in meshed:
         place = _place(support, domain, scales)
         if not isinstance(place, str) and corner(domain, place) is None:
             problems.append(_no_corner(number, support))
@@ -54,8 +55,14 @@ def held_by_supports(scene: Scene, domain: Domain, scales: Scales) -> Held:
                     prescribed.append((place, component, shift))
     if problems:
         raise SceneError(problems)
-    clamped = tuple(str(support.where) for support in scene.supports if "rotation" in support.held)
+    clamped = tuple(str(support.where) for _, support in meshed if "rotation" in support.held)
     return Held(tuple(components), tuple(prescribed), clamped)
+
+
+def _is_meshed(support: Support, domain: Domain) -> bool:
+    """Is its place in the meshed part? An edge beyond a mirror plane has its image there, held by another support."""
+    beyond = domain.reduction.planes and isinstance(support.where, str) and support.where != "surface"
+    return not beyond or support.where in domain.mesh.GetBBoundaries()
 
 
 def _place(support: Support, domain: Domain, scales: Scales) -> Place:

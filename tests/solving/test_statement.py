@@ -17,6 +17,7 @@ from embedding.solving.loads import mechanical_loads
 from embedding.solving.problem import Problem
 from embedding.solving.supports import held_by_supports
 from tests.scene.samples import MATERIAL, refusals
+from tests.shell.rigid import NodalForces
 
 MU, SIZE = 1e5, 0.02
 SHAPES: dict[str, dict[str, Any]] = {
@@ -26,6 +27,8 @@ SHAPES: dict[str, dict[str, Any]] = {
     "hemisphere": {"kind": "hemisphere", "radius": SIZE},
     "quarter": {"kind": "hemisphere", "radius": SIZE, "angle": "90 deg"},
     "skew": {"kind": "hemisphere", "radius": SIZE, "angle": "45 deg", "start": "20 deg"},
+    "tube": {"kind": "cylinder", "radius": SIZE, "length": 2 * SIZE},
+    "can": {"kind": "cylinder", "radius": SIZE, "length": 2 * SIZE, "ends": "capped"},
     "strip": {"kind": "strip", "length": SIZE},
 }
 
@@ -193,3 +196,31 @@ def test_what_a_membrane_cannot_carry_is_refused() -> None:
         f"supports.0.kind: {reason}",
         f"supports.1.fix: {reason}",
     ]
+
+
+def test_a_line_within_the_shell_has_no_outward_direction() -> None:
+    loads = {
+        "edge_tractions": [
+            {"edge": "end0", "traction": [1, 0, 0], "frame": "edge"},
+            {"edge": "end1", "traction": [0, 0, 1]},
+        ],
+        "line_loads": [{"line": "end1", "force": [1, 0, 0]}],
+    }
+    reason = "is not allowed: the shell goes on there, so that the line has no outward direction"
+    assert refusals(lambda: problem("can", loads=loads)) == [f'loads.edge_tractions.0.edge: "end0" {reason}']
+    assert problem("tube", loads=loads).system.physics.loads.edge_forces[0].edge == "end0"
+
+
+def test_edges_beyond_a_mirror_plane() -> None:
+    """Both ends of a tube are held and pulled; the lower one is not meshed, and its supports are those of its image."""
+    supports = [{"where": end, "fix": ["x"]} for end in ("end0", "end1")]
+    pulled = [{"edge": end, "traction": [0, 0, t]} for end, t in (("end0", -2e3), ("end1", 2e3))]
+    made = problem("tube", supports=supports, loads={"edge_tractions": pulled}, model={"reduction": "3d"})
+    physics, domain = made.system.physics, made.domain
+    assert domain.reduction.planes == ("x", "y", "z")
+    assert physics.supports == (("end1", 0),)
+    forces = NodalForces(domain, physics.loads)
+    work = forces.work(ngsolve.CF((0, 0, 0)), ngsolve.CF((0, 0, ngsolve.z)))
+    ring = ngsolve.Integrate(ngsolve.CF(1.0) * ngsolve.dx(definedon=made.mesh.BBoundaries("end1")), made.mesh)
+    assert ring == pytest.approx(math.pi / 2, rel=1e-2)
+    assert work == pytest.approx(2 * 4 * ring * 1.0 * 1.0)  # two ends of four quarters, force 1 and displacement 1
