@@ -28,7 +28,7 @@ from embedding.scene.shapes import (
     Torus,
     TSection,
 )
-from embedding.scene.shell import Shell
+from embedding.scene.shell import Region, Shell
 from embedding.scene.supports import Support
 from embedding.scene.surface_fields import ForceField, PressureField, ThicknessField
 from embedding.scene.symmetry import axisymmetry_problems
@@ -66,6 +66,7 @@ __all__ = [
     "PointLoad",
     "PressureField",
     "Problem",
+    "Region",
     "Scales",
     "Scene",
     "SceneError",

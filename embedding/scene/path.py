@@ -14,8 +14,8 @@ from embedding.scene.units import Number, Plain, Ratio
 class Stage(Part):
     """One ramp, in ``steps`` steps.
 
-    ``mechanical`` scales the loads and ``field`` the voltages and the applied field at the end of the stage;
-    both run linearly from the end of the stage before (from 0 at the start). ``volume_ratio`` controls the
+    ``mechanical`` scales the loads and given displacements, ``field`` the voltages and the applied field at the end of
+    the stage; both run linearly from the end of the stage before (from 0 at the start). ``volume_ratio`` controls the
     enclosed volume of a closed shell, relative to the reference; the pressure difference p_b - p_t is then
     the unknown.
     """
