@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ngsolve import CF, BilinearForm, Grad, InnerProduct, Parameter, Variation
+from ngsolve import CF, BilinearForm, Grad, Id, InnerProduct, Parameter, Trace, Variation
 
 from embedding.ambient.energy import far_field_energy, field_energy
 from embedding.ambient.motion import SideMotion
@@ -143,7 +143,7 @@ class Lagrangian:
         if self.physics.field is not None:
             for term in self.field_energies(trial):
                 form += Variation(-1 * term).Compile()
-        for term in [self._proximal(), *self._openings(), *residuals]:
+        for term in [self._proximal(), *self._extrapolation(), *self._openings(), *residuals]:
             form += term.Compile()
         return form
 
@@ -160,7 +160,7 @@ class Lagrangian:
             shell = shell + measure * InnerProduct(_trace(values[f"tau_{face}"]), offset)
         terms.append(shell * surface)
         if self.unknowns.bending is not None:
-            terms += self.unknowns.bending.energies(values, kinematics)
+            terms += self.unknowns.bending.energies(values, kinematics, self.factors.mechanical)
         terms += dead_load_energy(self.domain, physics.loads, physics.thickness, u, self.factors.mechanical)
         if self.pressure_has_potential:
             terms.append(measure * self._pressure_energy(kinematics, u, values.get("pressure")) * self.domain.surface())
@@ -172,6 +172,38 @@ class Lagrangian:
         shift = _trace(self.unknowns.trial["u"]) - self.unknowns.field("u")
         pull = self.factors.proximal * self.physics.thickness * InnerProduct(shift, _trace(self.unknowns.test["u"]))
         return self.measure * pull * self.domain.surface()
+
+    def _extrapolation(self) -> list[Any]:
+        """The geometric stiffness of the stress that the last update forgot; in the matrix only, like the proximal term.
+
+        With update d, strains change by the linear part and Grad d^T Grad d / 2. A shell that turns is stretched by the
+        second only in Newton's imagination, but its stress, of the size of the membrane stiffness, spoils the next
+        tangent. There the stress is extrapolated from the last state instead: minus D : (Grad d^T Grad d) / 2 is added.
+        The residual is what it was, so the solution is too. It is Newton's method with stresses as unknowns of their own:
+        D. Magisano, L. Leonetti, G. Garcea, Comput. Methods Appl. Mech. Eng. 313 (2017) 986.
+        """
+        if self.unknowns.bending is None:
+            return []
+        reduction, physics = self.domain.reduction, self.physics
+        law, u, d = physics.law, self.unknowns.field("u"), self.unknowns.last_update
+        if law.incompressible:
+            state = {name: self.unknowns.field(name) for name in self.unknowns.names}
+            youngs, poisson = 3 * law.bending_modulus(self.kinematics(state)), 0.5
+        else:
+            youngs, poisson = law.youngs, law.poisson
+        modulus = -0.5 * physics.thickness * youngs / (1 - poisson**2)
+        trial, test = self.unknowns.trial["u"], self.unknowns.test["u"]
+        slope, slope_v = surface_gradient(trial) - surface_gradient(u), surface_gradient(test)
+        grown = surface_gradient(d).trans * surface_gradient(d)
+        if reduction.dimension == 3:
+            forgotten = (1 - poisson) * grown + poisson * Trace(grown) * Id(3)
+            return [self.measure * modulus * InnerProduct(slope * forgotten, slope_v) * self.domain.surface()]
+        hoop, hoop_v = reduction.hoop_change(d), reduction.hoop_change(test.Trace())
+        shift = reduction.hoop_change(trial.Trace()) - reduction.hoop_change(u)
+        along = Trace(grown) + poisson * hoop**2
+        around = hoop**2 + poisson * Trace(grown)
+        work = along * InnerProduct(slope, slope_v) + around * shift * hoop_v
+        return [self.measure * modulus * work * self.domain.surface()]
 
     def _openings(self) -> list[Any]:
         """The part of the faces' terms that is linear in the unknowns, with the anchors, as a bilinear form.

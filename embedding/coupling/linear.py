@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+import scipy.sparse as sparse
 
 from embedding.errors import EmbeddingError
 from embedding.geometry.spaces import Mask, as_bits, as_mask
@@ -49,15 +50,15 @@ class LinearSolverError(EmbeddingError):
 class DirectSolver:
     """Factors a matrix for its free unknowns and solves with it again and again.
 
-    Unknowns that a form has condensed out (``form.condense``) are eliminated element by element before and recovered
-    after; they are always free.
+    ``mask`` marks the free unknowns, ``kept`` those of them that are in the matrix. Unknowns that a form has condensed
+    out are eliminated element by element before and recovered after; they are always free.
     """
 
     def __init__(self, free: Any, *, symmetric: bool, condensed: Mask | None = None) -> None:
         self.mask = as_mask(free)
         self._condensed = condensed is not None
-        self._kept = self.mask if condensed is None else self.mask & ~condensed
-        self.free = free if condensed is None else as_bits(self._kept)
+        self.kept = self.mask if condensed is None else self.mask & ~condensed
+        self.free = free if condensed is None else as_bits(self.kept)
         self._methods = ["sparsecholesky", "umfpack"] if symmetric else ["umfpack"]
         self._form: Any = None
         self._inverse: Any = None
@@ -66,6 +67,14 @@ class DirectSolver:
     def factor(self, form: Any) -> None:
         """Take the assembled matrix of ``form``; it is factored when the first right side comes."""
         self._form, self._inverse, self._method = form, None, ""
+
+    def matrix(self) -> sparse.csc_array:
+        """The matrix of the last :meth:`factor` on the kept unknowns."""
+        rows, columns, entries = (np.asarray(part) for part in self._form.mat.COO())
+        size = (len(self.kept), len(self.kept))
+        whole = sparse.csc_array((entries, (rows, columns)), shape=size)
+        numbers = np.flatnonzero(self.kept)
+        return sparse.csc_array(whole[numbers][:, numbers])
 
     def solve(self, right_side: Any) -> Any:
         """The update vector for ``right_side`` (left as it is), zero on the unknowns that are not free.
@@ -86,7 +95,7 @@ class DirectSolver:
     def _kept_part(self, load: Any) -> Any:
         update = load.CreateVector()
         update[:] = 0.0
-        scale = float(np.linalg.norm(load.FV().NumPy()[self._kept]))
+        scale = float(np.linalg.norm(load.FV().NumPy()[self.kept]))
         if scale == 0.0:
             return update
         worst = "no solver ran"
@@ -111,10 +120,10 @@ class DirectSolver:
         """Solve, with one step of iterative refinement if the residual asks for it; returns the residual's norm."""
         residual = load.CreateVector()
         update.data = self._inverse * load
-        goal, norm = REFINE * float(np.linalg.norm(load.FV().NumPy()[self._kept])), float("inf")
+        goal, norm = REFINE * float(np.linalg.norm(load.FV().NumPy()[self.kept])), float("inf")
         for attempt in range(2):
             residual.data = load - self._form.mat * update
-            norm = float(np.linalg.norm(residual.FV().NumPy()[self._kept]))
+            norm = float(np.linalg.norm(residual.FV().NumPy()[self.kept]))
             if attempt or norm < goal:
                 break
             update.data += self._inverse * residual

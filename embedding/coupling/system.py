@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
+import scipy.sparse as sparse
 from ngsolve import BND, BilinearForm, FESpace, GridFunction, InnerProduct, Variation
 
 from embedding.ambient.motion import SideMotion
@@ -15,7 +17,7 @@ from embedding.coupling.tractions import FaceTractions
 from embedding.coupling.unknowns import SIDES, Unknowns
 from embedding.geometry.domain import Domain
 from embedding.geometry.places import displaced
-from embedding.geometry.spaces import as_bits
+from embedding.geometry.spaces import Mask, as_bits
 from embedding.shell.point_loads import point_load_vector
 
 
@@ -43,6 +45,7 @@ class System:
         self.place_faces()
         self._held: tuple[str, ...] = ()
         self._solver = self._direct_solver(())
+        self._measured = self._linearised = self._displacement
 
     def place_faces(self) -> None:
         """Put the opened faces where the present displacement of the mid-surface has them."""
@@ -78,9 +81,7 @@ class System:
             self.potential.prescribe(field)
 
     def _direct_solver(self, held: tuple[str, ...]) -> DirectSolver:
-        return DirectSolver(
-            self.unknowns.free(held), symmetric=self.symmetric, condensed=self.unknowns.condensed
-        )
+        return DirectSolver(self.unknowns.free(held), symmetric=self.symmetric, condensed=self.unknowns.condensed)
 
     @property
     def free_count(self) -> int:
@@ -92,8 +93,13 @@ class System:
         face_of = {side: self.lagrangian.face(face) for face, side in SIDES.items()}
         return all(motion.follow(self.unknowns.field(face_of[side]).vec) for side, motion in self.motions.items())
 
+    @property
+    def _displacement(self) -> npt.NDArray[np.float64]:
+        return np.array(self.unknowns.field("u").vec.FV().NumPy())
+
     def residual(self) -> Any:
         """Internal minus external forces at the present state and load, a new vector."""
+        self._measure_rotations()
         residual = self.unknowns.state.vec.CreateVector()
         self.form.Apply(self.unknowns.state.vec, residual)
         if self.physics.loads.point_forces:
@@ -101,14 +107,20 @@ class System:
             residual.FV().NumPy()[self.unknowns.range("u")] -= forces
         return residual
 
-    def refresh(self) -> None:
-        """Renew what the forms of bending measure rotations from; no residual changes by it, only what is small."""
-        if self.unknowns.bending is not None:
+    def _measure_rotations(self) -> None:
+        """Let bending measure rotations from the present state, if it has moved. The equilibrium is the same for any
+        choice, but rotations must stay small as seen from it."""
+        present = self._displacement
+        if self.unknowns.bending is not None and not np.array_equal(present, self._measured):
             values = {name: self.unknowns.field(name) for name in self.unknowns.names}
             self.unknowns.bending.refresh(self.lagrangian.kinematics(values))
+            self._measured = present
 
     def linearise(self) -> None:
         """Assemble the tangent at the present state and load, for :meth:`solve`."""
+        present = self._displacement
+        self.unknowns.last_update.vec.FV().NumPy()[:] = present - self._linearised
+        self._linearised = present
         self.form.AssembleLinearization(self.unknowns.state.vec)
         self._solver.factor(self.form)
 
@@ -119,6 +131,21 @@ class System:
             LinearSolverError: the tangent is singular.
         """
         return self._solver.solve(right_side)
+
+    def tangent(self) -> tuple[sparse.csc_array, Mask]:
+        """The tangent of the last :meth:`linearise` on its free unknowns, condensed, and which of them are numbers."""
+        numbers = np.zeros(len(self._solver.mask), bool)
+        for name in self.unknowns.names:
+            where = self.unknowns.range(name)
+            numbers[where] = name in self.unknowns.numbers
+        return self._solver.matrix(), numbers[self._solver.kept]
+
+    @property
+    def saddle_count(self) -> int:
+        """Negative eigenvalues that the tangent of a stable shell without a field has: one for each multiplier, of the
+        volume and of rigid motions, and one for each moment that is not condensed out."""
+        moments = self._solver.kept[self.unknowns.range("moment")].sum() if "moment" in self.unknowns else 0
+        return int(moments) + len(self.unknowns.rigid) + ("pressure" in self.unknowns and "pressure" not in self._held)
 
     def newton_update(self) -> tuple[Any, float]:
         """Solve the linearised joint system; returns the step to add and its decrement.
@@ -159,12 +186,16 @@ class System:
     def save(self) -> Any:
         """A copy of the whole state, for :meth:`restore`."""
         motions = {side: [v.copy() for v in motion.vectors()] for side, motion in self.motions.items()}
-        return np.array(self.unknowns.state.vec.FV().NumPy()), motions
+        bending = self.unknowns.bending
+        return np.array(self.unknowns.state.vec.FV().NumPy()), motions, bending.memory if bending is not None else None
 
     def restore(self, saved: Any) -> None:
         """Go back to a state returned by :meth:`save`."""
-        state, motions = saved
+        state, motions, memory = saved
         self.unknowns.state.vec.FV().NumPy()[:] = state
+        if self.unknowns.bending is not None:
+            self.unknowns.bending.memory = memory
+            self._measured = self._linearised = self._displacement
         for side, motion in self.motions.items():
             for vector, values in zip(motion.vectors(), motions[side], strict=True):
                 vector[:] = values

@@ -61,12 +61,14 @@ class Unknowns:
         self._parts |= self.bending.parts() if self.bending is not None else {}
         numbers = ["pressure"] * physics.volume_controlled + ["axial"] * physics.axial_free
         self.rigid = free_rigid_motions(domain, self.trace, physics.clamped if physics.bending else ())
-        for name in [*numbers, *(f"rigid{i}" for i in range(len(self.rigid)))]:
+        self.numbers = (*numbers, *(f"rigid{i}" for i in range(len(self.rigid))))
+        for name in self.numbers:
             self._parts[name] = (NumberSpace(domain.mesh), np.ones(1, bool))
         self.names = tuple(self._parts)
         self.space = FESpace([space for space, _ in self._parts.values()])
         self.condensed = self._condense()
         self.state = GridFunction(self.space)
+        self.last_update = GridFunction(self.trace.space)
         self.trial = dict(zip(self.names, self.space.TrialFunction(), strict=True))
         self.test = dict(zip(self.names, self.space.TestFunction(), strict=True))
 
@@ -122,7 +124,7 @@ def _bending(domain: Domain, physics: Physics) -> SurfaceBending | CurveBending 
     if not physics.bending:
         return None
     kind = SurfaceBending if domain.mesh.dim == 3 else CurveBending
-    return kind(domain, Stiffness(physics.law, physics.thickness), physics.clamped)
+    return kind(domain, Stiffness(physics.law, physics.thickness), physics.clamped, physics.loads.edge_moments)
 
 
 def _displacement(domain: Domain, reach: str) -> TraceSpace:

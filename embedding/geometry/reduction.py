@@ -74,6 +74,10 @@ class Reduction:
             return (x + displacement[0]) / x
         return axial if self.name == "plane-strain" else 1.0
 
+    def hoop_change(self, displacement: Any) -> Any:
+        """What a ``displacement`` (d,) adds to the stretch around the axis; 0 where there is none."""
+        return displacement[0] / x if self.name == "axisymmetric" else CF(0.0)
+
     def components(self, axis: str) -> tuple[int, ...]:
         """Displacement components meant by the Cartesian ``axis`` ("x" and "y" are both radial in axisymmetry)."""
         if self.name == "axisymmetric":

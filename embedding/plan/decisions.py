@@ -22,7 +22,7 @@ class Plan:
     """Everything the solver needs to know beyond the scene; sizes are relative to the size of the shape.
 
     ``opened`` names the faces ("t", "b") at their true places, ``odd_planes`` the mirror planes across which the
-    potential changes sign.
+    potential changes sign. ``bending`` says whether the shell resists it.
     """
 
     reduction: Reduction
@@ -30,6 +30,7 @@ class Plan:
     opened: tuple[str, ...]
     odd_planes: tuple[str, ...]
     decisions: tuple[Decision, ...]
+    bending: bool = False
 
     def text(self) -> str:
         """The decisions as aligned lines."""

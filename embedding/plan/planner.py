@@ -6,6 +6,7 @@ from embedding.geometry.domain import MeshSizes
 from embedding.geometry.reduction import Reduction
 from embedding.plan.decisions import Decision, Plan
 from embedding.plan.symmetry import choose_reduction, odd_planes
+from embedding.plan.theory import choose_theory
 from embedding.scene import Scene
 
 FAR_RADIUS = 4.0
@@ -24,16 +25,8 @@ def explain(scene: Scene) -> Plan:
     opened, faces = _interface(scene)
     sizes, mesh = _sizes(scene, reduction.name)
     rest = (_loads(scene), *_rigid(scene, reduction), *_field(scene), *faces, *mesh, _order(scene))
-    decisions = (first, _theory(scene), *rest)
-    return Plan(reduction, sizes, opened, odd, decisions)
-
-
-def _theory(scene: Scene) -> Decision:
-    ratio = scene.shell.thickest / scene.shell.shape.size
-    reason = (
-        f"thickness over size {ratio:.3g}: loads off by about {0.8 * ratio**2:.1e} of themselves; no bending stiffness"
-    )
-    return Decision("shell theory", "membrane", reason)
+    theory = choose_theory(scene)
+    return Plan(reduction, sizes, opened, odd, (first, theory, *rest), theory.choice == "bending")
 
 
 def _loads(scene: Scene) -> Decision:

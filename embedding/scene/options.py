@@ -13,8 +13,10 @@ from embedding.scene.units import Length, Number
 
 
 class Model(Part):
-    """Choices of the model: ``symmetry`` uses mirror planes in 3d, ``interface`` the faces' true places."""
+    """Choices of the model: ``theory`` is that of the shell, ``symmetry`` uses mirror planes in 3d, ``interface`` the
+    faces' true places."""
 
+    theory: Literal["auto", "membrane", "bending"] = "auto"
     reduction: Literal["auto", "3d", "axisymmetric", "plane-strain"] = "auto"
     symmetry: Literal["auto", "none"] = "auto"
     interface: Literal["auto", "opened", "closed"] = "auto"

@@ -69,6 +69,11 @@ class Shell(Part):
         return not self.regions and not isinstance(self.thickness, ThicknessField)
 
     @property
+    def materials(self) -> tuple[Material, ...]:
+        """The material of the shell and those of its regions."""
+        return (self.material, *(region.material for region in self.regions if region.material is not None))
+
+    @property
     def thickest(self) -> float:
         """The largest thickness, in m; of an expression the largest value at a few points of the shape."""
         stated = [self.thickness, *(region.thickness for region in self.regions if region.thickness is not None)]

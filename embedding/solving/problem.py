@@ -43,7 +43,7 @@ class Problem:
     """
 
     def __init__(self, scene: Scene, plan: Plan, sizes: MeshSizes | None = None) -> None:
-        refuse_unmodelled(scene)
+        refuse_unmodelled(scene, plan)
         self.scene, self.plan, self.scales = scene, plan, Scales.of(scene)
         self.reduction: Reduction = plan.reduction
         self.domain: Domain = build(scene.shell.shape, plan.reduction, sizes or plan.sizes)
@@ -71,11 +71,11 @@ class Problem:
         return self.reduction.embed(np.asarray(values))
 
 
-def refuse_unmodelled(scene: Scene) -> None:
+def refuse_unmodelled(scene: Scene, plan: Plan) -> None:
     """Refuse combinations that are valid statements but not modelled by this version."""
     shape = scene.shell.shape
     open_tube = isinstance(shape, InfiniteCylinder) and shape.axial == "free"
-    problems = list(needs_bending(scene))
+    problems = [] if plan.bending else list(needs_bending(scene))
     if open_tube and scene.ambient is not None:
         problems.append(SceneProblem("shell.shape.axial", '"free" is not allowed with an ambient: use "held"'))
     controlled = any(stage.volume_ratio is not None for stage in scene.path)
@@ -109,6 +109,7 @@ def physics_of(scene: Scene, plan: Plan, scales: Scales, domain: Domain) -> Phys
         field=_field(scene, plan, scales),
         prescribed=held.prescribed,
         clamped=held.clamped,
+        bending=plan.bending,
     )
 
 

@@ -17,19 +17,25 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from ngsolve import BND, CF, H1, Grad, GridFunction, InnerProduct, Parameter, SurfaceL2, atan2, cos, sin, specialcf, x
 
 from embedding.geometry.domain import Domain
 from embedding.geometry.ends import facets_named
 from embedding.geometry.spaces import Mask, TraceSpace
-from embedding.shell.bending.stiffness import Stiffness
+from embedding.shell.bending.stiffness import EdgeMoments, Stiffness
 from embedding.shell.kinematics import Kinematics, surface_gradient
 
 
 class CurveBending:
-    """Space and energy of bending on a curve; ``held`` names the ends whose rotation is held."""
+    """Space and energy of bending on a curve.
 
-    def __init__(self, domain: Domain, stiffness: Stiffness, held: tuple[str, ...]) -> None:
+    ``held`` names the ends whose rotation is held, ``moments`` are given at others, per reference length.
+    """
+
+    condensed = None
+
+    def __init__(self, domain: Domain, stiffness: Stiffness, held: tuple[str, ...], moments: EdgeMoments = ()) -> None:
         self.domain, self.stiffness = domain, stiffness
         self._trace = TraceSpace(domain.mesh, domain.sizes.order, vector=False, reach="shell")
         self._axisymmetric = domain.reduction.name == "axisymmetric"
@@ -39,25 +45,29 @@ class CurveBending:
         if self._axisymmetric:
             fixed[[v.nr for v in domain.mesh.vertices if abs(v.point[0]) < 1e-9]] = True
         self._trace.fix(0, fixed)
+        self._given = GridFunction(self._trace.scalar)
+        for edge, given in moments:
+            for vertex in facets_named(domain.facets, (edge,)):
+                radius = domain.mesh.vertices[int(vertex)].point[0] if self._axisymmetric else 1.0
+                self._given.vec[int(vertex)] = given * radius
         self._turned = GridFunction(SurfaceL2(domain.mesh, order=domain.sizes.order, definedon=domain.shell))
         self._tangent = specialcf.tangential(2)
         self._slope = domain.sign * Grad(specialcf.normal(2))
         self._hand = InnerProduct(domain.normal, CF((-self._tangent[1], self._tangent[0])))
 
-    condensed = None
-
     def parts(self) -> dict[str, tuple[Any, Mask]]:
         """The space of q, with its free unknowns."""
         return {"moment": (self._trace.space, self._trace.free)}
 
-    def energies(self, values: dict[str, Any], kinematics: Kinematics) -> list[Any]:
-        """Integrals whose stationary point in the moment is the bending energy."""
+    def energies(self, values: dict[str, Any], kinematics: Kinematics, factor: Any) -> list[Any]:
+        """Integrals whose stationary point in the moment is the bending energy less the work of the moments given at
+        ends, times ``factor``."""
         q = values["moment"]
         measure = self.domain.reduction.measure
         per_radius = measure / x if self._axisymmetric else measure
-        along = InnerProduct(surface_gradient(q), self._tangent)
+        along = InnerProduct(surface_gradient(q) + factor * surface_gradient(self._given), self._tangent)
         pairing = -1 * per_radius * self._hand * along * self._angle(kinematics)
-        moment = self._moment(q, kinematics)
+        moment = self._moment((q.Trace() if hasattr(q, "Trace") else q) + factor * self._given, kinematics)
         t, hoop = self._tangent, kinematics.hoop
         stretched = kinematics.deformation_gradient * t
         B = -1 * InnerProduct(t, self._slope * t)
@@ -67,8 +77,7 @@ class CurveBending:
 
     def _moment(self, q: Any, kinematics: Kinematics) -> Any:
         """m_ss from the unknown q."""
-        value = q.Trace() if hasattr(q, "Trace") else q
-        return value * kinematics.hoop / x if self._axisymmetric else value * kinematics.hoop
+        return q * kinematics.hoop / x if self._axisymmetric else q * kinematics.hoop
 
     def _hoop_curvature(self, kinematics: Kinematics) -> Any:
         if not self._axisymmetric:
@@ -88,3 +97,12 @@ class CurveBending:
         angle = GridFunction(self._turned.space)
         angle.Set(self._angle(kinematics), BND, definedon=self.domain.shell)
         self._turned.vec.data = angle.vec
+
+    @property
+    def memory(self) -> npt.NDArray[np.float64]:
+        """What rotations are measured from, for a state that may be gone back to."""
+        return np.array(self._turned.vec.FV().NumPy())
+
+    @memory.setter
+    def memory(self, values: npt.NDArray[np.float64]) -> None:
+        self._turned.vec.FV().NumPy()[:] = values

@@ -24,6 +24,9 @@ from ngsolve import InnerProduct, Trace
 
 from embedding.shell.kinematics import Kinematics
 
+EdgeMoments = tuple[tuple[str, float], ...]
+"""(edge, moment per reference length): positive turns the outward conormal towards the top normal."""
+
 
 @dataclass(frozen=True)
 class Stiffness:

@@ -20,6 +20,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from ngsolve import (
     ET,
     Cross,
@@ -39,7 +40,7 @@ from ngsolve import (
 from embedding.geometry.domain import Domain
 from embedding.geometry.ends import directions, facets_named, facets_on_plane, unknowns_on
 from embedding.geometry.spaces import ON_PLANE, Mask, as_mask
-from embedding.shell.bending.stiffness import Stiffness
+from embedding.shell.bending.stiffness import EdgeMoments, Stiffness
 from embedding.shell.kinematics import Kinematics
 
 LEANING = 0.7
@@ -49,13 +50,14 @@ LEANING = 0.7
 class SurfaceBending:
     """Spaces and energy of bending on the triangles of ``domain``'s shell.
 
-    ``held`` names the edges whose rotation is held; edges on mirror planes hold it by themselves.
+    ``held`` names the edges whose rotation is held; edges on mirror planes hold it by themselves. ``moments`` are given
+    on edges, per reference length.
     """
 
     condensed = "moment"
 
-    def __init__(self, domain: Domain, stiffness: Stiffness, held: tuple[str, ...]) -> None:
-        self.domain, self.stiffness = domain, stiffness
+    def __init__(self, domain: Domain, stiffness: Stiffness, held: tuple[str, ...], moments: EdgeMoments = ()) -> None:
+        self.domain, self.stiffness, self._moments = domain, stiffness, moments
         mesh, order = domain.mesh, domain.sizes.order - 1
         self._moment = HDivDivSurface(mesh, order=order, discontinuous=True, definedon=domain.shell)
         self._rotation = NormalFacetSurface(mesh, order=order, definedon=domain.shell)
@@ -94,8 +96,9 @@ class SurfaceBending:
             free[unknowns_on(self._rotation, edges)] = False
         return {"moment": (self._moment, as_mask(self._moment.FreeDofs())), "rotation": (self._rotation, free)}
 
-    def energies(self, values: dict[str, Any], kinematics: Kinematics) -> list[Any]:
-        """Integrals whose stationary point in moment and rotation is the bending energy.
+    def energies(self, values: dict[str, Any], kinematics: Kinematics, factor: Any) -> list[Any]:
+        """Integrals whose stationary point in moment and rotation is the bending energy less the work of the moments
+        on edges, times ``factor``.
 
         They are kept apart because each compiles to its own product of few unknowns, which is the faster assembly.
         """
@@ -110,13 +113,23 @@ class SurfaceBending:
             copies * bent * self._surface,
             copies * rest * self._surface,
             copies * self._edge_density(kinematics, moment, rotation) * self._edges,
+            *(copies * factor * self._work(*given, kinematics, rotation) * self._edges for given in self._moments),
         ]
 
-    def _edge_density(self, kinematics: Kinematics, moment: Any, rotation: Any) -> Any:
+    def _work(self, edge: str, given: float, kinematics: Kinematics, rotation: Any) -> Any:
+        """Minus the given moment times the angle that the edge turns by, rotation |F t|."""
+        nu, _, length = self._edge_frame(kinematics)
+        angle = self._sign * InnerProduct(rotation, nu) * length
+        return -given * self.domain.rim_indicator((edge,)) * angle
+
+    def _edge_frame(self, kinematics: Kinematics) -> tuple[Any, Any, Any]:
+        """Outward conormal nu, the deformed tangent F t and its length, on element edges."""
         t = specialcf.tangential(3)
-        nu = Cross(specialcf.normal(3), t)
         stretched = kinematics.deformation_gradient * t
-        length = sqrt(InnerProduct(stretched, stretched))
+        return Cross(specialcf.normal(3), t), stretched, sqrt(InnerProduct(stretched, stretched))
+
+    def _edge_density(self, kinematics: Kinematics, moment: Any, rotation: Any) -> Any:
+        nu, stretched, length = self._edge_frame(kinematics)
         m = kinematics.area_vector
         across = self._sign * InnerProduct(Cross(m, stretched), self._average)
         angle = atan2(across, length * InnerProduct(m, self._average))
@@ -137,3 +150,12 @@ class SurfaceBending:
             values[fixed] = self._reference.vec.FV().NumPy()[fixed]
         for component, edges in self._mirrored:
             values[unknowns_on(target.space, edges, (component,))] = 0.0
+
+    @property
+    def memory(self) -> npt.NDArray[np.float64]:
+        """What rotations are measured from, for a state that may be gone back to."""
+        return np.array(self._average.vec.FV().NumPy())
+
+    @memory.setter
+    def memory(self, values: npt.NDArray[np.float64]) -> None:
+        self._average.vec.FV().NumPy()[:] = values
