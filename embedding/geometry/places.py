@@ -18,7 +18,7 @@ from embedding.geometry.spaces import Mask, TraceSpace, scalar_mask
 
 Array = npt.NDArray[np.float64]
 Place = str | tuple[float, ...]
-"""An edge of the shape, "surface", or a point in mesh coordinates."""
+"""An edge or a face of the shape, "surface", or a point in mesh coordinates."""
 
 CLOSE = 1e-6
 """How far a point may lie off the surface, or a corner off its point, in shell sizes."""
@@ -83,7 +83,8 @@ def unknowns_at(domain: Domain, space: Any, place: Place) -> Mask:
     if place == "surface":
         return scalar_mask(space, domain.shell)
     if isinstance(place, str):
-        return scalar_mask(space, domain.mesh.BBoundaries(place))
+        edge = place in domain.shape.edges or place not in domain.shape.faces
+        return scalar_mask(space, domain.mesh.BBoundaries(place) if edge else domain.face(place))
     vertex = corner(domain, place)
     if vertex is None:
         raise ValueError(f"no vertex of the mesh at {place}")

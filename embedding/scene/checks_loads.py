@@ -30,7 +30,7 @@ def surface_fields(scene: Scene) -> Iterator[tuple[str, SurfaceField]]:
 
 def _supports(scene: Scene) -> Iterator[Problem]:
     shape = scene.shell.shape
-    allowed = (*shape.edges, "surface")
+    allowed = tuple(dict.fromkeys((*shape.edges, *shape.faces, "surface")))
     for number, support in enumerate(scene.supports):
         path = f"supports.{number}"
         if isinstance(support.where, str) and support.where not in allowed:

@@ -37,7 +37,7 @@ Directions = Annotated[tuple[Direction, ...], BeforeValidator(_directions), Afte
 
 @dataclass(frozen=True)
 class _Place:
-    allowed: str = 'must be an edge of the shape, "surface" or a point [x, y, z]'
+    allowed: str = 'must be an edge or face of the shape, "surface" or a point [x, y, z]'
 
     def __call__(self, value: Any) -> Any:
         return value
@@ -57,11 +57,11 @@ Place = Annotated[
 class Support(Part):
     """Displacements that are held, at zero or at a given ``displacement`` in m that the path may ramp.
 
-    ``where`` is an edge of the shape, "surface" for the whole shell, or a point [x, y, z] in m where the shape has a
-    corner. ``fix`` lists what is held: directions, and "rotation", the turning of the shell about an edge. Instead of
-    it ``kind`` names a usual support: "clamped" (all), "pinned" (x, y and z) or "symmetry", for an edge in a plane
-    across a coordinate axis (the displacement along that axis, and the rotation). In an axisymmetric reduction x and y
-    both mean the radial direction.
+    ``where`` is an edge of the shape, a named face of it, "surface" for the whole shell, or a point [x, y, z] in m
+    where the shape has a corner. ``fix`` lists what is held: directions, and "rotation", the turning of the shell about
+    an edge. Instead of it ``kind`` names a usual support: "clamped" (all), "pinned" (x, y and z) or "symmetry", for an
+    edge in a plane across a coordinate axis (the displacement along that axis, and the rotation). In an axisymmetric
+    reduction x and y both mean the radial direction.
     """
 
     where: Place

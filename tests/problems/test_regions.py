@@ -10,8 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 from netgen.occ import Glue, WorkPlane
+from ngsolve import CF, Integrate
 
 from embedding import Scene, explain, solve
+from embedding.shell.kinematics import Kinematics
+from embedding.shell.laws import KoiterLaw, MooneyRivlinLaw, PiecewiseLaw, piecewise
 from embedding.solving.problem import Problem
 from problems.common import Array, Positions
 from tests.scene.samples import refusals
@@ -118,6 +121,36 @@ def test_weight_thickness_and_volume_of_regions(bands: str) -> None:
     assert volume == pytest.approx(thick + 0.04 * 0.05 * 1e-3, rel=1e-12)
     weight = made.domain.shell_integral(physics.thickness * physics.loads.body_force[0]) * scales.force
     assert weight == pytest.approx(1e4 * thick + 3e4 * 0.04 * 0.05 * 1e-3, rel=1e-12)
+
+
+def test_a_held_face(bands: str) -> None:
+    """The middle is glued down: only the right band stretches, t = mu T (l - l^-3)."""
+    scene = sheet(bands, rubber(1e5), [], loads=pulled(1e-3 * 1e5 * (2 - 1 / 8)))
+    glued = [*scene.supports[:1], {"where": "middle", "fix": ["x"]}, {"where": "left", "fix": ["x"]}]
+    x, u = moved_along_x(scene.model_copy(update={"supports": glued}))
+    assert np.abs(u - piecewise_linear(x, (1.0, 1.0, 2.0))).max() < 1e-12
+
+
+def test_what_a_law_in_pieces_tells(bands: str) -> None:
+    """Stresses and bending moduli of each region at rest and at the stretches 2 and 1.5."""
+    modulus = {"left": 1e5, "middle": 3e5, "right": 2e5}
+    softer = {"law": "mooney-rivlin", "c1": 0.75e5, "c2": 0.25e5}
+    regions = [{"faces": ["middle"], "material": rubber(3e5)}, {"faces": ["right"], "material": softer}]
+    scene = sheet(bands, rubber(1e5), regions)
+    made = Problem(scene, explain(scene))
+    law, domain = made.system.physics.law, made.domain
+    assert isinstance(law, PiecewiseLaw)
+    rest = Kinematics(domain.reduction, domain.normal, made.system.unknowns.field("u"))
+    at_rest, stress = law.bending_modulus(rest), law.principal_stresses(CF(2.0), CF(1.5))[0]
+    for name, value in modulus.items():
+        region = domain.face(name)
+        area = Integrate(CF(1.0), made.mesh, definedon=region)
+        c2 = 0.25e5 if name == "right" else 0.0
+        exact = 2 * ((value / 2 - c2) + c2 * 1.5**2) * (4 - 1 / 9)
+        assert Integrate(at_rest, made.mesh, definedon=region) * 1e5 == pytest.approx(value * area)
+        assert Integrate(stress, made.mesh, definedon=region) * 1e5 == pytest.approx(exact * area)
+    with pytest.raises(TypeError, match="small strains"):
+        piecewise(CF(1.0), MooneyRivlinLaw(1.0), KoiterLaw(1.0, 0.3))
 
 
 @pytest.mark.parametrize(

@@ -142,7 +142,7 @@ def test_other_spellings_of_a_length(value: Any) -> None:
         (lambda: Support(where="rim", fix=[]), 'fix: [] is not allowed: must be a list of different axes, such as ["x", "z"]'),
         (lambda: Support(where="rim", fix=["x", "x"]), 'fix: [x, x] is not allowed: must be a list of different axes, such as ["x", "z"]'),
         (lambda: Support(where="rim", fix=["r"]), 'fix.0: "r" is not allowed: must be "x", "y", "z" or "rotation"'),
-        (lambda: Support(fix=["x"]), 'where: missing: must be an edge of the shape, "surface" or a point [x, y, z]'),
+        (lambda: Support(fix=["x"]), 'where: missing: must be an edge or face of the shape, "surface" or a point [x, y, z]'),
         (lambda: Stage(steps=0), "steps: 0 is not allowed: must be at least 1 and at most 10000"),
         (lambda: Stage(steps=10001), "steps: 10001 is not allowed: must be at least 1 and at most 10000"),
         (lambda: Stage(steps=2.0), "steps: 2.0 is not allowed: must be a whole number of at least 1 and at most 10000"),
