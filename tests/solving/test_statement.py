@@ -191,7 +191,8 @@ def test_what_a_membrane_cannot_carry_is_refused() -> None:
     ]
     reason = "needs a shell that resists bending, and this one is a membrane"
     loads = {"edge_moments": [{"edge": "y1", "moment": 4}]}
-    assert refusals(lambda: problem("plate", supports=supports, loads=loads)) == [
+    membrane = {"theory": "membrane"}
+    assert refusals(lambda: problem("plate", supports=supports, loads=loads, model=membrane)) == [
         f"loads.edge_moments.0: {reason}",
         f"supports.0.kind: {reason}",
         f"supports.1.fix: {reason}",
