@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ngsolve import CF, BilinearForm, Grad, Id, InnerProduct, Parameter, Trace, Variation
+from ngsolve import CF, BilinearForm, Grad, GridFunction, InnerProduct, Parameter, Variation
 
 from embedding.ambient.energy import far_field_energy, field_energy
 from embedding.ambient.motion import SideMotion
@@ -24,6 +24,7 @@ from embedding.coupling.unknowns import SIDES, Unknowns
 from embedding.geometry.domain import Domain
 from embedding.shell.edges import edge_residual
 from embedding.shell.kinematics import Kinematics, surface_gradient
+from embedding.shell.membrane import Membrane
 from embedding.shell.loads import dead_load_energy, enclosed_volume, follower_residual
 
 ANCHOR = 1e-6
@@ -63,6 +64,10 @@ class Lagrangian:
         self.domain, self.physics, self.unknowns = domain, physics, unknowns
         self.motions, self.factors = motions, factors
         self.measure = domain.reduction.measure
+        self.membrane: Membrane | None = None
+        if unknowns.bending is not None:
+            update = GridFunction(unknowns.trace.space)
+            self.membrane = Membrane(domain, physics.law, physics.thickness, update, cured=physics.locking_cured)
 
     # -- what both the joint form and the potential's own form are made of
 
@@ -143,7 +148,7 @@ class Lagrangian:
         if self.physics.field is not None:
             for term in self.field_energies(trial):
                 form += Variation(-1 * term).Compile()
-        for term in [self._proximal(), *self._extrapolation(), *self._openings(), *residuals]:
+        for term in [self._proximal(), *self._openings(), *residuals]:
             form += term.Compile()
         return form
 
@@ -153,13 +158,16 @@ class Lagrangian:
         u = _trace(values["u"])
         terms: list[Any] = []
         surface = self.domain.surface()
-        shell = self._elastic(kinematics)
+        shell = measure * self._membrane_energy(kinematics) if self.membrane is None else CF(0.0)
         # One compiled expression for everything that is nonlinear in u: the terms share the kinematics.
         for face in self.unknowns.opened:
             offset = OFFSET[face] * physics.thickness * kinematics.director
             shell = shell + measure * InnerProduct(_trace(values[f"tau_{face}"]), offset)
-        terms.append(shell * surface)
-        if self.unknowns.bending is not None:
+        if self.membrane is None or self.unknowns.opened:
+            terms.append(shell * surface)
+        if self.membrane is not None and self.unknowns.bending is not None:
+            state = self.kinematics({name: self.unknowns.field(name) for name in self.unknowns.names})
+            terms.append(measure * self.membrane.energy(kinematics, state) * self.membrane.integral)
             terms += self.unknowns.bending.energies(values, kinematics, self.factors.mechanical)
         terms += dead_load_energy(self.domain, physics.loads, physics.thickness, u, self.factors.mechanical)
         if self.pressure_has_potential:
@@ -172,38 +180,6 @@ class Lagrangian:
         shift = _trace(self.unknowns.trial["u"]) - self.unknowns.field("u")
         pull = self.factors.proximal * self.physics.thickness * InnerProduct(shift, _trace(self.unknowns.test["u"]))
         return self.measure * pull * self.domain.surface()
-
-    def _extrapolation(self) -> list[Any]:
-        """The geometric stiffness of the stress that the last update forgot; in the matrix only, like the proximal term.
-
-        With update d, strains change by the linear part and Grad d^T Grad d / 2. A shell that turns is stretched by the
-        second only in Newton's imagination, but its stress, of the size of the membrane stiffness, spoils the next
-        tangent. There the stress is extrapolated from the last state instead: minus D : (Grad d^T Grad d) / 2 is added.
-        The residual is what it was, so the solution is too. It is Newton's method with stresses as unknowns of their own:
-        D. Magisano, L. Leonetti, G. Garcea, Comput. Methods Appl. Mech. Eng. 313 (2017) 986.
-        """
-        if self.unknowns.bending is None:
-            return []
-        reduction, physics = self.domain.reduction, self.physics
-        law, u, d = physics.law, self.unknowns.field("u"), self.unknowns.last_update
-        if law.incompressible:
-            state = {name: self.unknowns.field(name) for name in self.unknowns.names}
-            youngs, poisson = 3 * law.bending_modulus(self.kinematics(state)), 0.5
-        else:
-            youngs, poisson = law.youngs, law.poisson
-        modulus = -0.5 * physics.thickness * youngs / (1 - poisson**2)
-        trial, test = self.unknowns.trial["u"], self.unknowns.test["u"]
-        slope, slope_v = surface_gradient(trial) - surface_gradient(u), surface_gradient(test)
-        grown = surface_gradient(d).trans * surface_gradient(d)
-        if reduction.dimension == 3:
-            forgotten = (1 - poisson) * grown + poisson * Trace(grown) * Id(3)
-            return [self.measure * modulus * InnerProduct(slope * forgotten, slope_v) * self.domain.surface()]
-        hoop, hoop_v = reduction.hoop_change(d), reduction.hoop_change(test.Trace())
-        shift = reduction.hoop_change(trial.Trace()) - reduction.hoop_change(u)
-        along = Trace(grown) + poisson * hoop**2
-        around = hoop**2 + poisson * Trace(grown)
-        work = along * InnerProduct(slope, slope_v) + around * shift * hoop_v
-        return [self.measure * modulus * work * self.domain.surface()]
 
     def _openings(self) -> list[Any]:
         """The part of the faces' terms that is linear in the unknowns, with the anchors, as a bilinear form.
@@ -224,11 +200,15 @@ class Lagrangian:
         return terms
 
     def elastic_energy(self, values: dict[str, Any]) -> Any:
-        """T Psi times the measure: elastic energy per reference area."""
-        return self._elastic(self.kinematics(values))
+        """Elastic energy of stretching and bending per reference area, times the measure."""
+        kinematics = self.kinematics(values)
+        energy = self._membrane_energy(kinematics)
+        if self.unknowns.bending is not None:
+            energy = energy + self.unknowns.bending.stored(values, kinematics)
+        return self.measure * energy
 
-    def _elastic(self, kinematics: Kinematics) -> Any:
-        return self.measure * self.physics.thickness * self.physics.law.energy(kinematics)
+    def _membrane_energy(self, kinematics: Kinematics) -> Any:
+        return self.physics.thickness * self.physics.law.energy(kinematics)
 
     @property
     def pressure_has_potential(self) -> bool:

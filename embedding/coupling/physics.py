@@ -48,3 +48,4 @@ class Physics:
     prescribed: tuple[tuple[Place, int, float], ...] = ()
     clamped: tuple[str, ...] = ()
     bending: bool = False
+    locking_cured: bool = False

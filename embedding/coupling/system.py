@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from typing import Any
 
 import numpy as np
@@ -118,10 +119,11 @@ class System:
 
     def linearise(self) -> None:
         """Assemble the tangent at the present state and load, for :meth:`solve`."""
+        vector, membrane = self.unknowns.state.vec, self.lagrangian.membrane
         present = self._displacement
-        self.unknowns.last_update.vec.FV().NumPy()[:] = present - self._linearised
+        with membrane.extrapolating(present - self._linearised) if membrane is not None else nullcontext():
+            self.form.AssembleLinearization(vector)
         self._linearised = present
-        self.form.AssembleLinearization(self.unknowns.state.vec)
         self._solver.factor(self.form)
 
     def solve(self, right_side: Any) -> Any:

@@ -68,7 +68,6 @@ class Unknowns:
         self.space = FESpace([space for space, _ in self._parts.values()])
         self.condensed = self._condense()
         self.state = GridFunction(self.space)
-        self.last_update = GridFunction(self.trace.space)
         self.trial = dict(zip(self.names, self.space.TrialFunction(), strict=True))
         self.test = dict(zip(self.names, self.space.TestFunction(), strict=True))
 

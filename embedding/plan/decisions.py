@@ -22,7 +22,8 @@ class Plan:
     """Everything the solver needs to know beyond the scene; sizes are relative to the size of the shape.
 
     ``opened`` names the faces ("t", "b") at their true places, ``odd_planes`` the mirror planes across which the
-    potential changes sign. ``bending`` says whether the shell resists it.
+    potential changes sign. ``bending`` says whether the shell resists it,
+    ``locking_cured`` whether membrane strains are interpolated for it.
     """
 
     reduction: Reduction
@@ -31,6 +32,7 @@ class Plan:
     odd_planes: tuple[str, ...]
     decisions: tuple[Decision, ...]
     bending: bool = False
+    locking_cured: bool = False
 
     def text(self) -> str:
         """The decisions as aligned lines."""

@@ -6,7 +6,7 @@ from embedding.geometry.domain import MeshSizes
 from embedding.geometry.reduction import Reduction
 from embedding.plan.decisions import Decision, Plan
 from embedding.plan.symmetry import choose_reduction, odd_planes
-from embedding.plan.theory import choose_theory
+from embedding.plan.theory import choose_locking, choose_theory
 from embedding.scene import Scene
 
 FAR_RADIUS = 4.0
@@ -26,7 +26,10 @@ def explain(scene: Scene) -> Plan:
     sizes, mesh = _sizes(scene, reduction.name)
     rest = (_loads(scene), *_rigid(scene, reduction), *_field(scene), *faces, *mesh, _order(scene))
     theory = choose_theory(scene)
-    return Plan(reduction, sizes, opened, odd, (first, theory, *rest), theory.choice == "bending")
+    bending = theory.choice == "bending"
+    locking = choose_locking(scene) if bending else None
+    decisions = (first, theory, *([locking] if locking else []), *rest)
+    return Plan(reduction, sizes, opened, odd, decisions, bending, locking is not None and locking.choice == "cured")
 
 
 def _loads(scene: Scene) -> Decision:

@@ -6,6 +6,9 @@ from embedding.plan.decisions import Decision
 from embedding.scene import Scene
 from embedding.scene.checks_loads import needs_bending
 
+LOCKS = 0.02
+"""Thickness over size from which on plain strains of order 3 do not lock."""
+
 
 def choose_theory(scene: Scene) -> Decision:
     """The membrane, unless the scene pins bending, loads or holds what only bending can carry, or has a law of small
@@ -22,6 +25,17 @@ def choose_theory(scene: Scene) -> Decision:
     else:
         why = f"{wants[0].path} needs it" if wants else "a material of small strains bends more than it stretches"
     return Decision("shell theory", "bending", f"{why}; {slender}")
+
+
+def choose_locking(scene: Scene) -> Decision:
+    """Interpolated strains, unless the scene says otherwise or a rubber is too thick for locking to matter."""
+    ratio = scene.shell.thickest / scene.shell.shape.size
+    if scene.discretisation.locking != "auto":
+        return Decision("membrane locking", scene.discretisation.locking, "pinned by the scene")
+    if _stretches(scene) and ratio > LOCKS:
+        reason = f"a rubber of thickness over size above {LOCKS:g} is stretched more than it is bent"
+        return Decision("membrane locking", "as it is", reason)
+    return Decision("membrane locking", "cured", "strains are interpolated: a thin shell bends without stretching")
 
 
 def _stretches(scene: Scene) -> bool:

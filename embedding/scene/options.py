@@ -42,12 +42,13 @@ def _table(value: Any) -> Any:
 
 
 class Discretisation(Part):
-    """Polynomial order, mesh sizes in m on the shell and far away, and how fast sizes may change.
+    """Polynomial order, cure of membrane locking under bending, mesh sizes in m on the shell and far away, and how fast sizes may change.
 
     ``edge_size`` holds smaller sizes along edges of the shape, by their names.
     """
 
     order: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=4))] = 3
+    locking: Literal["auto", "cured", "as it is"] = "auto"
     shell_size: Length | None = None
     edge_size: Annotated[dict[str, Length], BeforeValidator(_table), AfterValidator(Fixed)] = Fixed()
     ambient_size: Length | None = None
@@ -55,9 +56,15 @@ class Discretisation(Part):
 
 
 class Solver(Part):
-    """Newton's method: tolerance, iterations per step, smallest fraction of a planned step, threads."""
+    """Newton's method: tolerance, iterations per step, smallest fraction of a planned step, threads.
+
+    A stage that follows a path is given up after ``max_steps`` steps, or when it has gone ``max_arc`` times the size of
+    the shape (root-mean-square displacement, added up).
+    """
 
     tolerance: Annotated[float, BeforeValidator(Number(at_least=1e-13, at_most=1e-3))] = 1e-9
     max_iterations: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=10_000))] = 25
     min_step: Annotated[float, BeforeValidator(Number(above=0.0, at_most=1.0))] = 1e-4
+    max_steps: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=100_000))] = 500
+    max_arc: Annotated[float, BeforeValidator(Number(above=0.0, at_most=1e6))] = 10.0
     threads: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=1024))] = 1

@@ -110,6 +110,7 @@ def physics_of(scene: Scene, plan: Plan, scales: Scales, domain: Domain) -> Phys
         prescribed=held.prescribed,
         clamped=held.clamped,
         bending=plan.bending,
+        locking_cured=plan.locking_cured,
     )
 
 

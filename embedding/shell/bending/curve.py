@@ -92,6 +92,11 @@ class CurveBending:
         s, c = sin(self._turned), cos(self._turned)
         return self._turned + atan2(c * sine - s * cosine, c * cosine + s * sine)
 
+    def stored(self, values: dict[str, Any], kinematics: Kinematics) -> Any:
+        """Bending energy per reference area of converged moments, as a coefficient function."""
+        moment = self._moment(values["moment"], kinematics)
+        return self.stiffness.stored(kinematics, moment, self._hoop_curvature(kinematics))
+
     def refresh(self, kinematics: Kinematics) -> None:
         """Count the angle on from the present state, given by its ``kinematics`` on grid functions."""
         angle = GridFunction(self._turned.space)

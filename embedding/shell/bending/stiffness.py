@@ -61,3 +61,14 @@ class Stiffness:
         along = InnerProduct(F, F)
         relative = hoop / kinematics.hoop**2
         return (moment * along - 2 * A * relative) ** 2 / (8 * A) - 2 * A * relative**2
+
+    def stored(self, kinematics: Kinematics, moment: Any, hoop: Any) -> Any:
+        """W_b at the meridional ``moment`` and the ``hoop`` curvature measure: m K_ss - W_b*, K_ss its derivative."""
+        if not self.law.incompressible:
+            E, nu = self.law.youngs, self.law.poisson
+            D = E * self.thickness**3 / (12 * (1 - nu**2))
+            return moment**2 / (2 * D) + D / 2 * (1 - nu**2) * hoop**2
+        A = self.law.bending_modulus(kinematics) * self.thickness**3 / (12 * kinematics.surface_stretch_squared)
+        F = kinematics.deformation_gradient
+        relative = hoop / kinematics.hoop**2
+        return (moment * InnerProduct(F, F)) ** 2 / (8 * A) + 3 / 2 * A * relative**2

@@ -138,6 +138,10 @@ class SurfaceBending:
         turn = (angle_0 - angle) / length + self._sign * InnerProduct(rotation, nu)
         return turn * moment[nu, nu]
 
+    def stored(self, values: dict[str, Any], kinematics: Kinematics) -> Any:
+        """Bending energy per reference area of converged moments, as a coefficient function: W_b = W_b* there."""
+        return self.stiffness.dual(kinematics, values["moment"])
+
     def refresh(self, kinematics: Kinematics) -> None:
         """Take the averaged normal from the present state, given by its ``kinematics`` on grid functions."""
         self._average_of(kinematics.area_vector, self._average)
