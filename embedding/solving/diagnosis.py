@@ -5,10 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+from ngsolve import ET, IfPos, IntegrationRule
+
 from embedding.coupling.linear import LinearSolverError
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
 from embedding.solving.result import Result
+from embedding.solving.state import State
 
 PROBE = 1e-4
 STEEP = 5.0
@@ -76,11 +80,30 @@ def compressed(problem: Problem, scalars: dict[str, float]) -> bool:
 
     A flat shell whose whole surface is held normal to itself cannot wrinkle; every other membrane can.
     """
-    if scalars["min_principal_stress"] >= COMPRESSION * problem.scales.stress:
+    if problem.plan.bending or scalars["min_principal_stress"] >= COMPRESSION * problem.scales.stress:
         return False
     held = {support.held for support in problem.scene.supports if support.where == "surface"}
     flat = problem.domain.is_flat
     return not (flat and any("z" in directions for directions in held))
+
+
+def region_in_compression(problem: Problem, state: State) -> str:
+    """Where the membrane is in compression: share of the area, centre and box of the reference positions, in m."""
+    inside = IfPos(COMPRESSION - state.min_principal_stress, 1.0, 0.0)
+    share = problem.domain.shell_integral(inside) / problem.domain.shell_integral(1.0)
+    rule = IntegrationRule(ET.TRIG if problem.mesh.dim == 3 else ET.SEGM, 2 * problem.domain.sizes.order)
+    points = problem.mesh.MapToAllElements(rule, problem.domain.shell)
+    chosen = np.asarray(inside(points)).ravel() > 0.5
+    places = problem.embed(np.asarray(problem.reduction.position(points)).reshape(len(chosen), -1)[chosen])
+    if not len(places):
+        return ""
+    low, high, centre = (_place(f(places, axis=0)) for f in (np.min, np.max, np.mean))
+    kind = " (axisymmetric: x is the radius)" if problem.reduction.name == "axisymmetric" else ""
+    return f"{100 * share:.2g} % of the area around {centre} m, from {low} to {high} m{kind}"
+
+
+def _place(point: Any) -> str:
+    return "[" + ", ".join(f"{c + 0.0:.3g}" for c in point) + "]"
 
 
 def _has_sources(problem: Problem) -> bool:

@@ -5,6 +5,7 @@ The solver stays free of files and screens: progress bars, archives and early st
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -37,12 +38,19 @@ class StepRecord:
     scalars: dict[str, float]
     wall_seconds: float
 
+    @property
+    def stable(self) -> bool | None:
+        """Has the shell no unstable mode? None where that is not known, see the theory page "Critical points"."""
+        unstable = self.scalars.get("unstable_modes", math.nan)
+        return None if math.isnan(unstable) else unstable == 0
+
 
 @dataclass(frozen=True)
 class Field:
     """A named field on one block of the mesh, live at the time of the call.
 
-    ``values`` is an NGSolve coefficient function in SI units; vectors have the components of the mesh's own dimension.
+    ``values`` is an NGSolve coefficient function in SI units; vectors have the components of the mesh's own dimension,
+    or three Cartesian ones; 3 x 3 tensors have nine, by rows.
     """
 
     block: str

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 from embedding.scene import Stage
 
+DEFAULT_STEPS = 10
+"""Steps of a stage that is ramped and does not say."""
+
 
 @dataclass(frozen=True)
 class Target:
@@ -40,6 +43,23 @@ def stage_target(stage: Stage, full_difference: float | None) -> Target:
     """Where a stage ends. ``full_difference`` is p_t - p_b at full mechanical load, if it is a number."""
     pressure = None if full_difference is None else stage.mechanical * full_difference
     return Target(stage.mechanical, stage.field, stage.volume_ratio, pressure)
+
+
+def followed(stage: Stage, start: Target, end: Target, *, with_field: bool) -> bool:
+    """Is the stage to be followed by arc length, wherever its load goes, rather than ramped?"""
+    if stage.control != "auto":
+        return stage.control in ("arc-length", "displacement")
+    if stage.until is not None or stage.branch is not None:
+        return True
+    fixed = not with_field or start.field == end.field
+    return stage.steps is None and stage.volume_ratio is None and fixed and start.mechanical != end.mechanical
+
+
+def planned_steps(stage: Stage, *, with_field: bool) -> int | None:
+    """How many steps a stage will take, None if it follows its path in steps of its own choice."""
+    here = Target(0.0, 0.0, None)
+    there = Target(1.0, 1.0 if with_field else 0.0, stage.volume_ratio)
+    return None if followed(stage, here, there, with_field=with_field) else stage.steps or DEFAULT_STEPS
 
 
 @dataclass

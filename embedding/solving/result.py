@@ -11,7 +11,7 @@ class Result(Enum):
     CONVERGED = "the whole path was solved"
     LIMIT_POINT = (
         "a limit point under the prescribed pressure: beyond it no equilibrium is near. "
-        "Control the enclosed volume instead (volume_ratio in a stage)"
+        'Follow the path beyond it (control = "arc-length" in a stage), or control the enclosed volume (volume_ratio)'
     )
     PULL_IN = (
         "a limit point under the prescribed field: beyond it no equilibrium is near. "
@@ -19,7 +19,7 @@ class Result(Enum):
     )
     COMPRESSIVE_MEMBRANE = (
         "the membrane is in compression, where it has no stiffness of its own and wrinkles. "
-        "Inflate or stretch it first; a model with bending is not part of this version"
+        'Inflate or stretch it first, or give it bending stiffness (model.theory = "bending")'
     )
     INVERTED_AMBIENT = (
         "elements of the ambient would turn over as the shell moves. "
@@ -28,6 +28,14 @@ class Result(Enum):
     LINEAR_SOLVER_FAILED = (
         "the linear system is singular: a motion is held by nothing. "
         'Add supports (a flat membrane without tension needs {where = "surface", fix = ["z"]}), or tension first'
+    )
+    MAX_STEPS = (
+        "the path was followed for the most steps allowed without meeting the end of the stage. "
+        "Allow more (solver.max_steps), or end the stage at a displacement it reaches (until)"
+    )
+    MAX_ARC = (
+        "the path was followed for the longest way allowed without meeting the end of the stage: past a limit point "
+        "the load may never be reached. Allow a longer way (solver.max_arc), or end the stage at a displacement (until)"
     )
     STEP_BELOW_MINIMUM = (
         "Newton's method did not converge with the smallest step allowed. "

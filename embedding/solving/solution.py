@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -39,8 +40,30 @@ class Cost:
 
 
 @dataclass(frozen=True)
+class CriticalPoint:
+    """A state in which the shell's tangent stiffness is singular, met between step ``before_step`` - 1 and that step.
+
+    At a "limit" point the load turns; at a "bifurcation" the path goes on and another branch crosses it. ``scalars``
+    are those of the state, ``mode`` holds the unknowns of the critical displacement (root mean square 1 over the
+    shell, in shell sizes), ``unstable`` the numbers of unstable modes before and behind, None where they are not known.
+    """
+
+    kind: Literal["limit", "bifurcation"]
+    stage: str
+    before_step: int
+    factor_mechanical: float
+    factor_field: float
+    scalars: dict[str, float]
+    mode: npt.NDArray[np.float64]
+    unstable: tuple[int | None, int | None]
+
+
+@dataclass(frozen=True)
 class Solution:
-    """The outcome of a solve, complete or not; ``solution["stretch"]`` is a scalar's history in SI units."""
+    """The outcome of a solve, complete or not; ``solution["stretch"]`` is a scalar's history in SI units.
+
+    ``iterations`` counts every Newton step, those of failed attempts and of looking for critical points included.
+    """
 
     scene: Scene
     plan: Plan
@@ -51,6 +74,8 @@ class Solution:
     error: ErrorEstimate | None
     cost: Cost
     archive: Path | None = None
+    critical_points: tuple[CriticalPoint, ...] = ()
+    iterations: int = 0
 
     def __getitem__(self, name: str) -> npt.NDArray[np.float64]:
         """History of the scalar ``name`` over the accepted steps.

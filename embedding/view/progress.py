@@ -14,6 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from embedding.solving.events import Iteration, Listener, StepRecord
+from embedding.solving.path import planned_steps
 
 if TYPE_CHECKING:
     from embedding.solving.problem import Problem
@@ -34,7 +35,7 @@ class ProgressDisplay(Listener):
         self.title, self.planned, self.stage_ends = "", 0, list[tuple[int, str]]()
         self.accepted_steps, self.step_number = 0, 1
         self.target: dict[str, float] = {}
-        self.has_field = False
+        self.has_field, self.counted = False, True
         self.newton: list[Iteration] = []
         self.last: StepRecord | None = None
         self.note = ""
@@ -59,11 +60,16 @@ class ProgressDisplay(Listener):
         """The problem is meshed: say what will be solved."""
         stages = problem.scene.path
         self.has_field = problem.scene.ambient is not None
-        self.planned = sum(stage.steps for stage in stages)
-        self.stage_ends = [
-            (sum(stage.steps for stage in stages[: k + 1]), stage.name) for k, stage in enumerate(stages)
-        ]
-        self.title = f"{problem.scene.name}: {problem.reduction.name}, {self.planned} steps"
+        counts = [planned_steps(stage, with_field=self.has_field) for stage in stages]
+        self.stage_ends = []
+        for stage, count in zip(stages, counts, strict=True):
+            if count is None:
+                break
+            self.planned += count
+            self.stage_ends.append((self.planned, stage.name))
+        self.counted = None not in counts
+        steps = f"{self.planned} steps" if self.counted else "steps of its own choice"
+        self.title = f"{problem.scene.name}: {problem.reduction.name}, {steps}"
         self._line(self.title)
 
     def iterated(self, step_number: int, target: dict[str, float], iteration: Iteration) -> None:
@@ -77,7 +83,7 @@ class ProgressDisplay(Listener):
         """A step is done."""
         self.accepted_steps, self.last, self.note = self.accepted_steps + 1, record, ""
         self._line(
-            f"step {record.number}/{max(self.planned, record.number)} ({record.stage}): {self._load()}, "
+            f"step {self._of(record.number)} ({record.stage}): {self._load()}, "
             f"{len(record.iterations)} iterations{self._stretch(record)}, {self._elapsed()}"
         )
 
@@ -100,8 +106,8 @@ class ProgressDisplay(Listener):
         head = Table.grid(padding=(0, 2))
         head.add_row(
             Text(self.title or "preparing", style="bold"),
-            ProgressBar(total=total, completed=self.accepted_steps, width=24),
-            f"{self.accepted_steps}/{total} steps",
+            ProgressBar(total=total if self.counted else None, completed=self.accepted_steps, width=24),
+            f"{self._of(self.accepted_steps)} steps",
             self._elapsed(),
         )
         parts: list[Table | Text] = [head]
@@ -134,7 +140,13 @@ class ProgressDisplay(Listener):
         for end, name in self.stage_ends:
             if self.step_number <= end:
                 return name
+        if not self.counted and self.last is not None:
+            return self.last.stage
         return self.stage_ends[-1][1] if self.stage_ends else ""
+
+    def _of(self, number: int) -> str:
+        """A step among those that are planned, where they are."""
+        return f"{number}/{max(self.planned, number)}" if self.counted else f"{number}"
 
     def _load(self) -> str:
         """The load of the present step in words, without what the scene does not have."""

@@ -1,0 +1,179 @@
+"""A stage by arc length: the equilibrium path is followed until the stage's end is met, through limit points."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from embedding.scene import Stage
+from embedding.solving.branches import onto_branch
+from embedding.solving.continuation import Condition, Corrector
+from embedding.solving.critical import Critical, Search
+from embedding.solving.curve import Point
+from embedding.solving.events import Iteration
+from embedding.solving.path import Target
+from embedding.solving.ramp import step
+from embedding.solving.result import Result
+from embedding.solving.session import Session
+from embedding.solving.shell_path import ShellPath
+from embedding.solving.walk import Stride, Walk, start
+
+FIRST, LARGEST = 0.1, 0.25
+"""First step, and largest one, as parts of the stage."""
+MOST_ITERATIONS = 12
+"""A correction that needs more is given up: a shorter step costs less."""
+LAUNCHES = 6
+"""How often the first step out of a singular state is halved."""
+IMPATIENT = 0.2
+"""A first step from rest is cut no shorter than this part before another way is tried."""
+COMPRESSED = 5
+"""How often a step into compression is halved, to end close to where it begins."""
+
+
+class ArcStage:
+    """One stage followed by arc length."""
+
+    def __init__(self, session: Session, stage: Stage, begin: Target, end: Target) -> None:
+        self.session, self.stage, self.begin, self.end = session, stage, begin, end
+        options = session.scene.solver
+        self.path = ShellPath(session.problem, begin, end, session.newton.clock)
+        most = min(options.max_iterations, MOST_ITERATIONS)
+        self.corrector = Corrector(self.path, options.tolerance, most)
+        self._iterations: list[Iteration] = []
+        self._started = time.perf_counter()
+        self._bifurcations = 0
+        self._good: Any = None
+
+    def follow(self, goals: Sequence[Condition]) -> Result:
+        """Walk until every one of ``goals`` has been met, in their order; the last is the stage's end."""
+        saved = self.path.save()
+        try:
+            return self._follow(goals)
+        except KeyboardInterrupt:
+            self.path.restore(self._good if self._good is not None else saved)
+            raise
+
+    def _follow(self, goals: Sequence[Condition]) -> Result:
+        walk = self._launched(goals[0])
+        if isinstance(walk, Result):
+            return walk
+        travelled = 0
+        options = self.session.scene.solver
+        for goal in goals:
+            walk.goal, walk.done = goal, abs(goal.gap(walk.here.values, walk.here.parameter)) == 0.0
+            while not walk.done:
+                if travelled >= options.max_steps:
+                    return Result.MAX_STEPS
+                if walk.here.place > options.max_arc:
+                    return Result.MAX_ARC
+                reason = self._step(walk)
+                if reason is not None:
+                    self.path.restore(walk.here.saved)
+                    return reason
+                travelled += 1
+        return Result.CONVERGED
+
+    def _launched(self, goal: Condition) -> Walk | Result:
+        """The walk at its first point; out of a singular state (a membrane at rest) the first step is one of load."""
+        saved = self.path.save()
+        walk = self._walk(goal)
+        if isinstance(walk, Walk):
+            if not self.session.at_rest:
+                return walk
+            patient, walk.stride = walk.stride, replace(walk.stride, smallest=IMPATIENT)
+            if self._step(walk) is None:
+                walk.stride = patient
+                return walk
+        self.path.restore(saved)
+        return self._out_of_rest(goal)
+
+    def _out_of_rest(self, goal: Condition) -> Walk | Result:
+        """The walk from a state at a small part of the load, found by Newton's method with a proximal term."""
+        fraction, reason = self._stride().first, Result.STEP_BELOW_MINIMUM
+        for _ in range(LAUNCHES):
+            found = step(self.session, self.stage, self.path.target(fraction))
+            if found is None:
+                self.path.move(self.path.values(), fraction)
+                self._started = time.perf_counter()
+                return self._walk(goal)
+            fraction, reason = fraction / 2, found
+            self.session.cut(fraction / self._stride().first, found.name)
+        return reason
+
+    def _walk(self, goal: Condition) -> Walk | Result:
+        found = start(self.corrector, goal, self._watch)
+        if isinstance(found, Result):
+            return found
+        metric, here = found
+        self._good = here.saved
+        return Walk(self.corrector, metric, here, goal, self._stride(), self._watch, self._cut)
+
+    def _stride(self) -> Stride:
+        hint = FIRST if self.stage.steps is None else min(FIRST, 1.0 / self.stage.steps)
+        largest = LARGEST if self.stage.steps is None else 1.0 / self.stage.steps
+        return Stride(hint, largest, self.session.scene.solver.min_step)
+
+    def _step(self, walk: Walk) -> Result | None:
+        """One accepted step, with the critical points on the way to it."""
+        for attempt in range(COMPRESSED + 1):
+            reason = walk.advance()
+            if reason is not None:
+                return reason
+            known = len(self.session.critical)
+            switched = self._look_between(walk)
+            reason = self._accepted(walk.here)
+            if reason is None or switched:
+                return reason
+            del self.session.critical[known:]
+            walk.retract()
+            if attempt == COMPRESSED or not walk.shorten(reason):
+                return reason
+        return Result.COMPRESSIVE_MEMBRANE
+
+    def _accepted(self, here: Point) -> Result | None:
+        self.path.restore(here.saved)
+        target = self.path.target(here.parameter)
+        iterations, self._iterations = self._iterations, []
+        reason = self.session.accept(self.stage.name, target, iterations, self._started, here.unstable)
+        if reason is None:
+            self._good, self._started = here.saved, time.perf_counter()
+        return reason
+
+    def _look_between(self, walk: Walk) -> bool:
+        """Locate the critical points of the last step and record them; True if the path was left at one of them."""
+        low, high = walk.before, walk.here
+        if low is None or (low.unstable == high.unstable and low.turns_with(high)):
+            return False
+        kept = self._iterations
+        found = Search(self.corrector, walk.metric, self._watch).between(low, high)
+        self._iterations = kept
+        for one in found:
+            self.path.restore(one.point.saved)
+            self.session.passed(self.stage.name, self.path.target(one.parameter), one)
+            if one.kind == "bifurcation" and self._leaves(walk, one):
+                return True
+        return False
+
+    def _leaves(self, walk: Walk, critical: Critical) -> bool:
+        """Is this where the stage goes over to another branch? Then the walk's last point is on that."""
+        self._bifurcations += 1
+        branch = self.stage.branch
+        if branch is None or self._bifurcations != branch.number:
+            return False
+        point = onto_branch(self.corrector, walk.metric, critical, branch.amplitude, self._watch)
+        if point is None:
+            return False
+        walk.go_on_from(point, 2 * abs(branch.amplitude))
+        return True
+
+    def _watch(self, number: int, size: float, decrement: float) -> None:
+        iteration = Iteration(number, size, decrement, *self.session.state.mean_pressures())
+        if number == 1:
+            self._iterations = []
+        self._iterations.append(iteration)
+        self.session.iterated(self.path.target(self.path.parameter), iteration)
+
+    def _cut(self, fraction: float, reason: Result) -> None:
+        self.session.cut(fraction, reason.name)

@@ -1,0 +1,109 @@
+"""What every way of following a path shares: the present load, accepting a state, giving one up, telling listeners."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from typing import Any
+
+from embedding.plan import explain
+from embedding.scene import Scene
+from embedding.solving.critical import Critical
+from embedding.solving.diagnosis import compressed, region_in_compression
+from embedding.solving.events import Iteration, Listener, StepRecord
+from embedding.solving.newton import Newton
+from embedding.solving.path import Target
+from embedding.solving.problem import Problem
+from embedding.solving.result import Result
+from embedding.solving.solution import CriticalPoint
+from embedding.solving.state import State
+
+REST = 1e-6
+"""A shell that is stretched by less counts as unstressed."""
+
+
+class Session:
+    """One solve in progress: the problem, its state, and what has been reached."""
+
+    def __init__(self, scene: Scene, listeners: Sequence[Listener]) -> None:
+        self.scene, self.listeners = scene, listeners
+        self.problem = Problem(scene, explain(scene))
+        self.state = State(self.problem)
+        options = scene.solver
+        self.newton = Newton(self.problem.system, options.tolerance, options.max_iterations, self.state.mean_pressures)
+        self.steps: list[StepRecord] = []
+        self.critical: list[CriticalPoint] = []
+        self.iterations = 0
+        self.detail = ""
+        self.at = Target(0.0, 0.0, None, None if self.full_difference is None else 0.0)
+
+    @property
+    def full_difference(self) -> float | None:
+        """p_t - p_b at full load where the pressure may become an unknown, else None."""
+        physics = self.problem.system.physics
+        return physics.loads.difference if physics.volume_controlled else None
+
+    @property
+    def at_rest(self) -> bool:
+        """Is this a membrane that nothing has stretched so far?"""
+        if self.problem.plan.bending:
+            return False
+        return not self.steps or abs(self.steps[-1].scalars["stretch_max"] - 1.0) < REST
+
+    def iterated(self, target: Target, iteration: Iteration) -> None:
+        """Count a Newton step towards ``target``, and tell the listeners."""
+        self.iterations += 1
+        for listener in self.listeners:
+            listener.iterated(len(self.steps) + 1, target.report(), iteration)
+
+    def cut(self, fraction: float, reason: str) -> None:
+        """Tell the listeners that the present step is tried again, shorter."""
+        for listener in self.listeners:
+            listener.cut(len(self.steps) + 1, fraction, reason)
+
+    def accept(
+        self, stage: str, target: Target, iterations: Sequence[Iteration], started: float, unstable: int | None
+    ) -> Result | None:
+        """Record the present, converged state as the next step; a reason if it is not to be kept."""
+        scalars = self.state.scalars()
+        if compressed(self.problem, scalars):
+            self.detail = region_in_compression(self.problem, self.state)
+            return Result.COMPRESSIVE_MEMBRANE
+        if unstable is not None:
+            scalars["unstable_modes"] = float(unstable)
+        record = StepRecord(
+            len(self.steps) + 1, stage, target.mechanical, target.field, tuple(iterations), scalars,
+            time.perf_counter() - started,
+        )  # fmt: skip
+        self.steps.append(record)
+        self.at, self.detail = target, ""
+        for listener in self.listeners:
+            listener.accepted(self.state, record)
+        return None
+
+    def passed(self, stage: str, target: Target, found: Critical) -> None:
+        """Record the present state as a critical point; the next step is the first behind it."""
+        scalars = self.state.scalars()
+        mode = found.mode[self.problem.system.unknowns.range("u")].copy()
+        number = len(self.steps) + 1
+        self.critical.append(
+            CriticalPoint(
+                found.kind, stage, number, target.mechanical, target.field, scalars, mode, found.unstable
+            )
+        )
+
+    def go_back(self, saved: Any) -> None:
+        """Return to the last good state and its load."""
+        self.problem.system.restore(saved)
+        self.problem.system.load(self.at.mechanical, self.at.field, self.at.volume, self.at.pressure)
+
+    def told(self, result: Result) -> str:
+        """The message of a solve that ended with ``result``."""
+        done = f"after {len(self.steps)} accepted steps" if self.steps else "before the first step was accepted"
+        load = self.at.report()
+        if self.problem.system.physics.field is None:
+            load.pop("field", None)
+        where = ", ".join(f"{name} {value:.4g}" for name, value in load.items())
+        passed = "".join(f"; passed a {p.kind} point at mechanical {p.factor_mechanical:.5g}" for p in self.critical)
+        detail = f"{self.detail}: " if self.detail else ""
+        return f"stopped {done} (last good load: {where}{passed}): {detail}{result.advice}"

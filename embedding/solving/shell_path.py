@@ -1,0 +1,142 @@
+"""A stage of a scene as an equilibrium path: the parameter runs from 0 at the start of the stage to 1 at its end.
+
+Everything a stage changes - loads, prescribed displacements, a field, a volume - depends on the one parameter t, and
+the path may go through values of t below 0 or beyond 1.
+"""
+
+from __future__ import annotations
+
+import time
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from ngsolve import BilinearForm, InnerProduct
+
+from embedding.solving.continuation import Array, Linearised
+from embedding.solving.newton import Clock
+from embedding.solving.path import Target
+from embedding.solving.problem import Problem
+from embedding.solving.stability import unstable_modes
+
+WHOLE, SMALL = 1.0, 1e-4
+"""Difference of the parameter for the derivative of the residual: loads are linear in it, so any does; prescribed
+displacements are not."""
+
+
+class ShellPath:
+    """The shell of ``problem`` on the way from ``start`` to ``end``; see :class:`Equilibrium`."""
+
+    def __init__(self, problem: Problem, start: Target, end: Target, clock: Clock) -> None:
+        self.problem, self.start, self.end, self.clock = problem, start, end, clock
+        self._system = problem.system
+        self._state = problem.system.unknowns.state.vec
+        self._parameter = 0.0
+
+    def target(self, parameter: float) -> Target:
+        """The load at ``parameter``."""
+        return self.end.between(self.start, parameter)
+
+    @property
+    def parameter(self) -> float:
+        """The present value of the parameter."""
+        return self._parameter
+
+    def values(self) -> Array:
+        """A copy of the unknowns."""
+        return np.array(self._state.FV().NumPy())
+
+    def move(self, values: Array, parameter: float) -> bool:
+        """Go to another state; False (and nothing moved) if elements of the ambient would turn over."""
+        before = self.values(), self._parameter
+        self._put(values, parameter)
+        start = time.perf_counter()
+        moved = self._system.follow()
+        self.clock.add("ambient motion", start)
+        if not moved:
+            self._put(*before)
+        return moved
+
+    def _put(self, values: Array, parameter: float) -> None:
+        self._state.FV().NumPy()[:] = values
+        self._load(parameter)
+        self._parameter = parameter
+
+    def _load(self, parameter: float) -> None:
+        target = self.target(parameter)
+        self._system.load(target.mechanical, target.field, target.volume, target.pressure)
+
+    def linearise(self) -> Linearised:
+        """Factor the tangent of the present state. Raises LinearSolverError."""
+        system, start = self._system, time.perf_counter()
+        if system.potential is not None:
+            system.potential.solve()
+            start = self.clock.add("potential", start)
+        residual = self._numbers(system.residual())
+        load, prescribed = self._difference()
+        system.linearise()
+        update = -self.solve(residual)
+        response = prescribed - self.solve(load)
+        self.clock.add("joint", start)
+        return Linearised(residual, load, update, response)
+
+    def _difference(self) -> tuple[Array, Array]:
+        """Derivatives of the residual and of the prescribed unknowns in the parameter, by central differences."""
+        step = SMALL if self._system.physics.prescribed or self.start.field != self.end.field else WHOLE
+        values = self.values()
+        sides = []
+        for sign in (-1.0, 1.0):
+            self._load(self._parameter + sign * step)
+            sides.append((self._numbers(self._system.residual()), self.values()))
+            self._state.FV().NumPy()[:] = values
+        self._load(self._parameter)
+        (low, before), (high, after) = sides
+        return (high - low) / (2 * step), (after - before) / (2 * step)
+
+    def solve(self, right_side: Array) -> Array:
+        """K^-1 times ``right_side``. Raises LinearSolverError."""
+        vector = self._state.CreateVector()
+        vector.FV().NumPy()[:] = right_side
+        return self._numbers(self._system.solve(vector))
+
+    @cached_property
+    def _mass(self) -> Any:
+        domain, space = self.problem.domain, self._system.unknowns.trace.space
+        trial, test = space.TnT()
+        area = domain.shell_integral(1.0)
+        form = BilinearForm(space, symmetric=True)
+        form += domain.reduction.measure / area * InnerProduct(trial.Trace(), test.Trace()) * domain.surface()
+        return form.Assemble().mat
+
+    def gradient(self, direction: Array) -> Array:
+        """M times ``direction``, for the mean square of the displacement over the shell, in shell sizes."""
+        where = self._system.unknowns.range("u")
+        vector = self._mass.CreateColVector()
+        vector.FV().NumPy()[:] = direction[where]
+        out = np.zeros_like(direction)
+        out[where] = self._numbers((self._mass * vector).Evaluate())
+        return out
+
+    def decrement(self, residual: Array, step: Array) -> float:
+        """Energy norm of a Newton step, see :meth:`System.decrement`."""
+        first, second = self._state.CreateVector(), self._state.CreateVector()
+        first.FV().NumPy()[:], second.FV().NumPy()[:] = residual, step
+        return self._system.decrement(first, second)
+
+    def unstable_modes(self) -> int | None:
+        """Negative eigenvalues of the last tangent, see :func:`unstable_modes`."""
+        return unstable_modes(self._system)
+
+    def save(self) -> Any:
+        """A copy of the whole state."""
+        return self._system.save(), self._parameter
+
+    def restore(self, saved: Any) -> None:
+        """Go back to a state returned by :meth:`save`."""
+        state, self._parameter = saved
+        self._system.restore(state)
+        self._load(self._parameter)
+
+    @staticmethod
+    def _numbers(vector: Any) -> Array:
+        return np.array(vector.FV().NumPy())
