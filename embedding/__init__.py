@@ -38,6 +38,7 @@ if TYPE_CHECKING:
         MooneyRivlin,
         NeoHookean,
         Ogden,
+        Output,
         Plate,
         PointLoad,
         PressureField,
@@ -72,9 +73,9 @@ _HOMES = {
     "embedding.scene": (
         "Ambient", "Annulus", "Arch", "Cap", "Cone", "Cylinder", "Disc", "Discretisation", "EdgeMoment",
         "EdgeTraction", "Electrode", "Ellipsoid", "Faces", "ForceField", "Gent", "Hemisphere", "InfiniteCylinder",
-        "LineLoad", "Loads", "Model", "MooneyRivlin", "NeoHookean", "Ogden", "Plate", "PointLoad", "PressureField",
-        "Region", "Scene", "Shell", "Solver", "Sphere", "StVenantKirchhoff", "Stage", "Strip", "Support",
-        "SurfaceFile", "TSection", "ThicknessField", "Torus", "Yeoh", "load_scene",
+        "LineLoad", "Loads", "Model", "MooneyRivlin", "NeoHookean", "Ogden", "Output", "Plate", "PointLoad",
+        "PressureField", "Region", "Scene", "Shell", "Solver", "Sphere", "StVenantKirchhoff", "Stage", "Strip",
+        "Support", "SurfaceFile", "TSection", "ThicknessField", "Torus", "Yeoh", "load_scene",
     ),
     "embedding.solving": ("Listener", "Result", "Solution"),
 }  # fmt: skip
@@ -107,6 +108,7 @@ __all__ = [
     "MooneyRivlin",
     "NeoHookean",
     "Ogden",
+    "Output",
     "Plate",
     "PointLoad",
     "PressureField",

@@ -246,7 +246,7 @@ class ArchivedBlock:
         return tuple(self.units)
 
     def field(self, name: str, step: int = -1) -> npt.NDArray[np.float32]:
-        """Values of a field at the nodes, (n,) or (n, 3), in its SI unit (``units``).
+        """Values of a field at the nodes, (n,), (n, 3) or (n, 9) by rows of a tensor, in its SI unit (``units``).
 
         Raises ArchiveError if there is no such field or step, listing what there is.
         """

@@ -90,7 +90,7 @@ class Recorder(Listener):
 
 def _sampled(block: LagrangeBlock, field: Field, problem: Problem) -> SampledField:
     values = block.sample(field.values, average=field.name not in CONTINUOUS)
-    if values.ndim == 2:
+    if values.ndim == 2 and values.shape[1] == problem.mesh.dim:
         values = np.asarray(problem.embed_vector(values))
     return SampledField(field.block, field.name, field.unit, values)
 

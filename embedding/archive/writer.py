@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SampledField:
-    """Values of a field at the nodes of a block: (n,) for a scalar, (n, 3) for a vector; ``unit`` is SI."""
+    """Values of a field at the nodes of a block: (n,) for a scalar, (n, c) for c components; ``unit`` is SI."""
 
     block: str
     name: str

@@ -6,6 +6,7 @@ from embedding.scene.expression import Expression, parse_expression
 from embedding.scene.loads import EdgeMoment, EdgeTraction, LineLoad, Loads, PointLoad
 from embedding.scene.materials import Gent, Material, MooneyRivlin, NeoHookean, Ogden, StVenantKirchhoff, Yeoh
 from embedding.scene.options import Discretisation, Model, Solver
+from embedding.scene.output import Output
 from embedding.scene.path import Stage
 from embedding.scene.scales import EPSILON_0, MU_0, Scales
 from embedding.scene.scene import Scene
@@ -62,6 +63,7 @@ __all__ = [
     "MooneyRivlin",
     "NeoHookean",
     "Ogden",
+    "Output",
     "Plate",
     "PointLoad",
     "PressureField",

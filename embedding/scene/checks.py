@@ -13,6 +13,7 @@ from embedding.scene.checks_field import FIELD_CHECKS
 from embedding.scene.checks_loads import LOAD_CHECKS
 from embedding.scene.checks_shell import SHELL_CHECKS
 from embedding.scene.messages import quoted
+from embedding.scene.output import output_problems
 from embedding.scene.part import Unavailable, known
 from embedding.scene.symmetry import UNSYMMETRIC
 
@@ -75,4 +76,4 @@ def _axisymmetric(check: Check) -> Check:
     return pinned
 
 
-MODEL_CHECKS = (_reduction, _edge_sizes, *map(_axisymmetric, UNSYMMETRIC))
+MODEL_CHECKS = (_reduction, _edge_sizes, output_problems, *map(_axisymmetric, UNSYMMETRIC))

@@ -13,6 +13,7 @@ from embedding.scene.checks import cross_problems
 from embedding.scene.loads import Loads
 from embedding.scene.messages import refusal
 from embedding.scene.options import Discretisation, Model, Solver
+from embedding.scene.output import Output
 from embedding.scene.part import TOLERANT, Part, tolerant
 from embedding.scene.path import Stage
 from embedding.scene.shell import Shell
@@ -43,6 +44,7 @@ class Scene(Part):
     model: Model = Model()
     discretisation: Discretisation = Discretisation()
     solver: Solver = Solver()
+    output: Output = Output()
 
     @classmethod
     def from_toml(cls, text: str, source: str | None = None) -> Scene:

@@ -14,6 +14,7 @@ from embedding.coupling.unknowns import SIDES
 from embedding.shell.kinematics import Kinematics
 from embedding.shell.loads import enclosed_volume
 from embedding.solving.events import Field
+from embedding.solving.outputs import output_fields
 from embedding.solving.problem import Problem
 
 FACE_OF = {side: face for face, side in SIDES.items()}
@@ -109,9 +110,16 @@ class State:
         for face, traction in self._system.tractions.items():
             kinematics = self._kinematics(self._system.lagrangian.face(face))
             out.append(Field("shell", f"t_{face}", "Pa", scales.stress * traction.tangential(kinematics)))
+        out += self._asked_for(top, bottom)
         for side in self._system.motions:
             out += self._ambient_fields(side)
         return out
+
+    def _asked_for(self, top: Any, bottom: Any) -> list[Field]:
+        """The fields that the scene names under ``output``."""
+        physics, output = self._system.physics, self.problem.scene.output
+        shell = (self._domain, self.mid_surface, physics.thickness)
+        return output_fields(output, shell, physics.law, (top, bottom), self._scales)
 
     def _ambient_fields(self, side: str) -> list[Field]:
         scales = self._scales
@@ -170,7 +178,7 @@ class State:
 
     def _stretches(self) -> dict[str, float]:
         area = self._domain.shell_integral(1.0)
-        ratio = self._domain.shell_integral(self.mid_surface.surface_stretch) / area
+        ratio = self._domain.shell_integral(self._area_stretch) / area
         plane = self._domain.reduction.name == "plane-strain"
         axial = float(self._values["axial"].vec[0]) if "axial" in self._values else self._system.physics.axial_stretch
         major, minor = (self._sample(value) for value in self.principal_stretches)
@@ -180,6 +188,15 @@ class State:
             "stretch_min": float(minor.min()),
             "min_principal_stress": self._scales.stress * float(self._sample(self.min_principal_stress).min()),
         }
+
+    @property
+    def _area_stretch(self) -> Any:
+        """J_s of the material mid-surface; bending shifts it against the mean surface."""
+        lagrangian = self._system.lagrangian
+        if not lagrangian.mean_surface:
+            return self.mid_surface.surface_stretch
+        below, curvature = lagrangian.mid_surface_shift(self._values)
+        return lagrangian.kinematics(self._values).surface_stretch * (1 + 2 * curvature * below)
 
     def _sample(self, values: Any) -> Any:
         rule = IntegrationRule(ET.TRIG if self._domain.mesh.dim == 3 else ET.SEGM, 2 * self._domain.sizes.order)
@@ -193,8 +210,13 @@ class State:
     @property
     def volume(self) -> float:
         """Volume enclosed by the deformed mid-surface, dimensionless (plane strain: per length)."""
-        kinematics = self._system.lagrangian.kinematics(self._values)
-        return self._domain.shell_integral(enclosed_volume(self._domain, kinematics, self._values["u"]))
+        lagrangian = self._system.lagrangian
+        kinematics = lagrangian.kinematics(self._values)
+        volume = self._domain.shell_integral(enclosed_volume(self._domain, kinematics, self._values["u"]))
+        if lagrangian.mean_surface:
+            below, _ = lagrangian.mid_surface_shift(self._values)
+            volume -= self._domain.shell_integral(below * kinematics.surface_stretch)
+        return volume
 
     def _field_scalars(self, energy: float) -> dict[str, float]:
         potential = self._system.potential
