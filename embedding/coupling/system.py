@@ -126,6 +126,10 @@ class System:
         self._linearised = present
         self._solver.factor(self.form)
 
+    def forget(self) -> None:
+        """Let the next tangent be that of its state alone: what led there was no update of Newton's method."""
+        self._linearised = self._displacement
+
     def solve(self, right_side: Any) -> Any:
         """Solve with the tangent of the last :meth:`linearise`.
 

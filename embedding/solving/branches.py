@@ -21,7 +21,7 @@ def onto_branch(
     equilibrium.restore(at.saved)
     guess = at.values + amplitude * critical.mode
     plane = metric.plane(mode, guess, at.parameter)
-    correction = corrector.correct(guess, at.parameter, plane, watch, thorough=True)
+    correction = corrector.correct(guess, at.parameter, plane, watch, thorough=True, straight=True)
     if correction.reason is not None or correction.response is None:
         return None
     values, parameter = equilibrium.values(), equilibrium.parameter

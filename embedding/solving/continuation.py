@@ -55,8 +55,9 @@ class Equilibrium(Protocol):
     def values(self) -> Array:
         """A copy of the present unknowns x."""
 
-    def move(self, values: Array, parameter: float) -> bool:
-        """Go to another state; False (and nothing moved) if it cannot be taken."""
+    def move(self, values: Array, parameter: float, *, curved: bool = False) -> bool:
+        """Go to another state, by a solution of linearised equations or else (``curved``) by a guess of another kind;
+        False (and nothing moved) if it cannot be taken."""
 
     def linearise(self) -> Linearised:
         """Factor the tangent of the present state. Raises LinearSolverError."""
@@ -167,17 +168,25 @@ class Corrector:
         self.equilibrium, self.tolerance, self.max_iterations = equilibrium, tolerance, max_iterations
 
     def correct(
-        self, values: Array, parameter: float, condition: Condition, watch: Watch, *, thorough: bool = False
+        self,
+        values: Array,
+        parameter: float,
+        condition: Condition,
+        watch: Watch,
+        *,
+        thorough: bool = False,
+        straight: bool = False,
     ) -> Correction:
         """Iterate from a guess; the state is only good afterwards if the outcome has no reason.
 
+        The guess is ``straight`` if it lies on the tangent at the state of the last linearisation.
         The error left by an update is estimated by the update and its ratio to the one before; when ``thorough`` the
         update itself must be below the tolerance. An update that rounding keeps from shrinking ends the iteration, too.
         """
         equilibrium = self.equilibrium
         sizes: list[float] = []
         response: Array | None = None
-        if not equilibrium.move(values, parameter):
+        if not equilibrium.move(values, parameter, curved=not straight):
             return Correction((), None, Result.INVERTED_AMBIENT)
         for number in range(1, self.max_iterations + 1):
             try:

@@ -9,7 +9,7 @@ them. Theory page, "Critical points".
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -22,16 +22,12 @@ from embedding.solving.curve import Curve, Point
 
 Kind = Literal["limit", "bifurcation"]
 
-PLACE = 1e-6
-"""How closely a place is found, relative to the step it lies in."""
-NEARBY = 1e-7
-"""And in sizes of the structure."""
-MOST_PROBES = 30
-PATIENT = 10
-"""How many states between two others are solved for at most, and from which on the bracket is simply halved."""
-BESIDE = 1e-3
-"""How far from a limit point, in parts of the step, its two sides are looked at."""
-SUBSPACE, ROUNDS, SETTLED = 4, 12, 1e-4
+BESIDE = (0.02, 5e-4)
+"""How far beside where it is expected a critical point is looked for, in parts of the step: first, then closer."""
+CLOSE = 3.0
+"""A bracket of this many times the closer distance is small enough."""
+MOST_ROUNDS = 8
+SUBSPACE, ROUNDS, SETTLED = 3, 12, 1e-4
 """Vectors and rounds of the subspace iteration, and the relative change of the eigenvalue that ends it."""
 
 
@@ -64,22 +60,14 @@ class Search:
             return []
 
     def _found(self, low: Point, high: Point) -> Iterator[Critical]:
+        before, after = low, high
         limit = self._limit(low, high)
-        if limit is None:
-            yield from self._bifurcations(low, high)
-            return
-        change = (high.unstable or 0) - (low.unstable or 0)
-        if low.unstable is None or high.unstable is None or abs(change) == 1:
-            yield Critical(limit.kind, limit.parameter, limit.mode, (low.unstable, high.unstable), limit.point)
-            return
-        away = BESIDE * (high.place - low.place)
-        sides = [self._probe(low, high, limit.point.place + shift) for shift in (-away, away)]
-        if sides[0] is not None:
-            yield from self._bifurcations(low, sides[0])
-        unstable = tuple(side.unstable if side is not None else None for side in sides)
-        yield Critical(limit.kind, limit.parameter, limit.mode, (unstable[0], unstable[1]), limit.point)
-        if sides[1] is not None:
-            yield from self._bifurcations(sides[1], high)
+        if limit is not None:
+            before, after, critical = limit
+            yield from self._bifurcations(low, before)
+            yield critical
+            low = after
+        yield from self._bifurcations(low, high)
 
     def _probe(self, low: Point, high: Point, place: float) -> Point | None:
         """The state of the path at ``place`` between two points; None if it cannot be solved for."""
@@ -96,25 +84,21 @@ class Search:
         values, parameter = equilibrium.values(), equilibrium.parameter
         return Point(values, parameter, place, tangent, equilibrium.unstable_modes(), equilibrium.save())
 
-    def _limit(self, low: Point, high: Point) -> Critical | None:
-        """Where the rate of the parameter changes its sign: the root of the cubic's slope, again and again."""
+    def _limit(self, low: Point, high: Point) -> tuple[Point, Point, Critical] | None:
+        """Where the rate of the parameter changes its sign, with the points beside it."""
         if _rate(low) * _rate(high) >= 0.0:
             return None
-        close = min(PLACE * (high.place - low.place), NEARBY)
-        last = math.inf
-        best: Point | None = None
-        for _ in range(MOST_PROBES):
-            probe = self._probe(low, high, _turning(low, high))
-            if probe is None:
-                break
-            best = probe
-            if abs(probe.place - last) < close or _rate(probe) == 0.0:
-                break
-            last = probe.place
-            low, high = (probe, high) if _rate(probe) * _rate(low) > 0.0 else (low, probe)
-        if best is None or best.tangent is None:
+
+        def aside(probe: Point) -> bool:
+            return _rate(probe) * _rate(low) > 0.0
+
+        found = self._closing_in(low, high, _turning, aside)
+        if found is None:
             return None
-        return Critical("limit", best.parameter, self._normalised(best.tangent.values), (None, None), best)
+        before, after = found
+        point = self._interpolated(before, after, _turning(before, after))
+        mode = self._normalised(after.values - before.values)
+        return before, after, Critical("limit", point.parameter, mode, (before.unstable, after.unstable), point)
 
     def _bifurcations(self, low: Point, high: Point) -> Iterator[Critical]:
         """Where eigenvalues change their sign, one after the other."""
@@ -126,24 +110,56 @@ class Search:
             yield critical
 
     def _first_change(self, low: Point, high: Point) -> tuple[Critical, Point] | None:
-        """The first place where the number of unstable modes changes, and the next state known behind it."""
-        count, close = low.unstable, min(PLACE * (high.place - low.place), NEARBY)
-        tried: list[tuple[float, float]] = []
-        place, mode, probe = 0.5 * (low.place + high.place), None, None
-        for _ in range(MOST_PROBES):
-            probe = self._probe(low, high, place)
-            if probe is None:
-                return None
-            value, mode = nearest_mode(self._corrector.equilibrium, mode)
-            low, high = (probe, high) if probe.unstable == count else (low, probe)
-            tried.append((place, value))
-            place = _secant(tried[-2:] if len(tried) < PATIENT else [], low.place, high.place)
-            if abs(place - tried[-1][0]) < close:
-                break
-        if probe is None or mode is None:
+        """The first place where the number of unstable modes changes, and the state close behind it."""
+        count, values, modes = low.unstable, dict[float, float](), list[Array]()
+
+        def aside(probe: Point) -> bool:
+            value, vectors = nearest_mode(self._corrector.equilibrium, modes[-1] if modes else None)
+            values[probe.place] = value
+            modes.append(vectors)
+            return probe.unstable == count
+
+        def root(first: Point, last: Point) -> float:
+            return _secant(values, first.place, last.place)
+
+        found = self._closing_in(low, high, root, aside)
+        if found is None:
             return None
-        unstable = (count, high.unstable)
-        return Critical("bifurcation", probe.parameter, self._normalised(mode[:, 0]), unstable, probe), high
+        before, after = found
+        point = self._interpolated(before, after, root(before, after))
+        mode = self._normalised(modes[-1][:, 0])
+        unstable = (before.unstable, after.unstable)
+        return Critical("bifurcation", point.parameter, mode, unstable, point), after
+
+    def _closing_in(
+        self, low: Point, high: Point, expected: Callable[[Point, Point], float], aside: Callable[[Point], bool]
+    ) -> tuple[Point, Point] | None:
+        """Two solved states close to either side of what is expected at a place that depends on such a pair.
+
+        ``aside`` says whether a state is still on the side of ``low``. The critical state itself is not solved for:
+        there the matrix is singular, and between states so close the cubic is as exact as they are.
+        """
+        whole = high.place - low.place
+        for number in range(MOST_ROUNDS):
+            place = expected(low, high)
+            away = whole * BESIDE[min(number, 1)]
+            for at in (place - away, place + away):
+                if not low.place < at < high.place:
+                    continue
+                probe = self._probe(low, high, at)
+                if probe is None:
+                    return None
+                low, high = (probe, high) if aside(probe) else (low, probe)
+            if high.place - low.place <= CLOSE * whole * BESIDE[1]:
+                return low, high
+        return None
+
+    def _interpolated(self, low: Point, high: Point, place: float) -> Point:
+        """The state at ``place`` between two close ones."""
+        at, equilibrium = Curve(low, high).at(place), self._corrector.equilibrium
+        equilibrium.restore(low.saved)
+        equilibrium.move(at.values, at.parameter, curved=True)
+        return Point(at.values, at.parameter, place, high.tangent, None, equilibrium.save())
 
     def _normalised(self, mode: Array) -> Array:
         size = float(self._metric.equilibrium.gradient(mode) @ mode)
@@ -195,12 +211,15 @@ def _turning(low: Point, high: Point) -> float:
     return low.place + length * (inside[0] if inside else first / (first - last))
 
 
-def _secant(tried: list[tuple[float, float]], low: float, high: float) -> float:
-    """The root of the line through the last two values, if it lies within the bracket; else its middle."""
-    if len(tried) == 2:
-        (a, at_a), (b, at_b) = tried
-        if at_a != at_b:
-            root = b - at_b * (b - a) / (at_b - at_a)
-            if low <= root <= high:
+def _secant(values: dict[float, float], low: float, high: float) -> float:
+    """The root of the line through the values at the two places next to the bracket's middle, if it lies within the
+    bracket; else the middle."""
+    middle = 0.5 * (low + high)
+    nearest = sorted(values, key=lambda place: abs(place - middle))[:2]
+    if len(nearest) == 2:
+        a, b = nearest
+        if values[a] != values[b]:
+            root = b - values[b] * (b - a) / (values[b] - values[a])
+            if low < root < high:
                 return root
-    return 0.5 * (low + high)
+    return middle

@@ -46,7 +46,7 @@ class ShellPath:
         """A copy of the unknowns."""
         return np.array(self._state.FV().NumPy())
 
-    def move(self, values: Array, parameter: float) -> bool:
+    def move(self, values: Array, parameter: float, *, curved: bool = False) -> bool:
         """Go to another state; False (and nothing moved) if elements of the ambient would turn over."""
         before = self.values(), self._parameter
         self._put(values, parameter)
@@ -55,6 +55,8 @@ class ShellPath:
         self.clock.add("ambient motion", start)
         if not moved:
             self._put(*before)
+        elif curved:
+            self._system.forget()
         return moved
 
     def _put(self, values: Array, parameter: float) -> None:

@@ -1,8 +1,8 @@
 """Walking an equilibrium path by arc length: predict, correct, choose the next step, and land on the goal exactly.
 
-The step follows from how fast Newton's method contracted in the last one: the error of a prediction grows with a known
-power of the step, and the contraction with that error (Deuflhard, Newton Methods for Nonlinear Problems, 2004, sec. 5).
-The direction follows by continuity: the walk never turns back, at a limit point the load does.
+The step follows from the number of iterations the last one took (Ramm, in: Nonlinear Finite Element Analysis in
+Structural Mechanics, 1981, 63) and from the error of its prediction, which grows with a known power of the step. The
+direction follows by continuity: the walk never turns back, at a limit point the load does.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from embedding.solving.continuation import (
 from embedding.solving.curve import Curve, Point
 from embedding.solving.result import Result
 
-CONTRACTION = 0.1
-"""Ratio of the first two updates the step length aims at; four to five iterations then reach the tolerance."""
+AIM, EASE = 5.0, 1.5
+"""Iterations the step length aims at, and by what factor it changes for each one more or less."""
+MISSED = 0.1
+"""Largest error of a prediction, relative to the step, that lets the step grow."""
 FASTEST, SLOWEST = 2.5, 0.4
 """The most and the least a step may be of the one before."""
-MANY = 6
-"""Iterations from which on the next step is shorter, whatever the contraction was."""
 TURN = 0.5
 """Smallest cosine between a step and the tangents at its ends; below it another branch may have been met."""
 REACH = 1.15
@@ -139,7 +139,8 @@ class Walk:
         guess = curve.at(self.here.place + self.length)
         chord = Direction(guess.values - self.here.values, guess.parameter - self.here.parameter)
         plane = self.metric.plane(self.metric.unit(chord), guess.values, guess.parameter)
-        correction = self.corrector.correct(guess.values, guess.parameter, plane, self._watch)
+        straight = curve.order == 2
+        correction = self.corrector.correct(guess.values, guess.parameter, plane, self._watch, straight=straight)
         point = self._point(correction)
         if isinstance(point, Result):
             return point
@@ -152,7 +153,8 @@ class Walk:
             self._accept(point)
             return None
         self._blind = False
-        growth = _growth(correction, curve.order)
+        error = Direction(point.values - guess.values, point.parameter - guess.parameter)
+        growth = _growth(correction, self.metric.length(error) / self.length, curve.order)
         self._accept(point)
         self._lengthen(growth)
         return None
@@ -205,13 +207,11 @@ class Walk:
             self.length = self.stride.largest / rate
 
 
-def _growth(correction: Correction, order: int) -> float:
-    """The next step as a multiple of the last one."""
-    growth = FASTEST
-    if correction.contraction > 0.0:
-        growth = (CONTRACTION / correction.contraction) ** (1.0 / order)
-    if len(correction.sizes) > MANY:
-        growth = min(growth, MANY / len(correction.sizes))
+def _growth(correction: Correction, error: float, order: int) -> float:
+    """The next step as a multiple of the last one, whose prediction had a relative ``error``."""
+    growth = math.pow(EASE, AIM - len(correction.sizes))
+    if error > 0.0:
+        growth = min(growth, (MISSED / error) ** (1.0 / order))
     return min(max(growth, SLOWEST), FASTEST)
 
 
