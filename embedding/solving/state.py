@@ -178,7 +178,7 @@ class State:
 
     def _stretches(self) -> dict[str, float]:
         area = self._domain.shell_integral(1.0)
-        ratio = self._domain.shell_integral(self._area_stretch) / area
+        ratio = self._domain.shell_integral(self.mid_surface.surface_stretch) / area
         plane = self._domain.reduction.name == "plane-strain"
         axial = float(self._values["axial"].vec[0]) if "axial" in self._values else self._system.physics.axial_stretch
         major, minor = (self._sample(value) for value in self.principal_stretches)
@@ -188,15 +188,6 @@ class State:
             "stretch_min": float(minor.min()),
             "min_principal_stress": self._scales.stress * float(self._sample(self.min_principal_stress).min()),
         }
-
-    @property
-    def _area_stretch(self) -> Any:
-        """J_s of the material mid-surface; bending shifts it against the mean surface."""
-        lagrangian = self._system.lagrangian
-        if not lagrangian.mean_surface:
-            return self.mid_surface.surface_stretch
-        below, curvature = lagrangian.mid_surface_shift(self._values)
-        return lagrangian.kinematics(self._values).surface_stretch * (1 + 2 * curvature * below)
 
     def _sample(self, values: Any) -> Any:
         rule = IntegrationRule(ET.TRIG if self._domain.mesh.dim == 3 else ET.SEGM, 2 * self._domain.sizes.order)
@@ -210,13 +201,8 @@ class State:
     @property
     def volume(self) -> float:
         """Volume enclosed by the deformed mid-surface, dimensionless (plane strain: per length)."""
-        lagrangian = self._system.lagrangian
-        kinematics = lagrangian.kinematics(self._values)
-        volume = self._domain.shell_integral(enclosed_volume(self._domain, kinematics, self._values["u"]))
-        if lagrangian.mean_surface:
-            below, _ = lagrangian.mid_surface_shift(self._values)
-            volume -= self._domain.shell_integral(below * kinematics.surface_stretch)
-        return volume
+        kinematics = self._system.lagrangian.kinematics(self._values)
+        return self._domain.shell_integral(enclosed_volume(self._domain, kinematics, self._values["u"]))
 
     def _field_scalars(self, energy: float) -> dict[str, float]:
         potential = self._system.potential
