@@ -55,6 +55,17 @@ def thick_pressure(
     )
 
 
+def bending_pressure(stretch: float, thickness_ratio: float) -> float:
+    """The plane-strain membrane's pressure plus the exact term of third order in T/R, neo-Hooke with mu = 1.
+
+    Expansion of `thick_pressure`: (x - 1)(x + 3)(x^2 - 2 x + 4) / (12 x^4) (T/R)^3 with x = l^2. A shell with
+    bending of that order follows it; the remainder is O((T/R)^5).
+    """
+    x = stretch**2
+    cubic = (x - 1.0) * (x + 3.0) * (x**2 - 2.0 * x + 4.0) / (12.0 * x**4)
+    return membrane_pressure(stretch, thickness_ratio) + cubic * thickness_ratio**3
+
+
 def membrane_stretch(
     pressure: float, thickness_ratio: float, law: Law | None = None, axial_stretch: float = 1.0
 ) -> float:

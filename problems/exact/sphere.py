@@ -96,6 +96,17 @@ def thick_pressure(stretch: float, thickness_ratio: float, law: Law | None = Non
     return primitive(inner) - primitive(outer)
 
 
+def bending_pressure(stretch: float, thickness_ratio: float) -> float:
+    """The membrane's pressure plus the exact term of third order in T/R, neo-Hooke with mu = 1.
+
+    Expansion of `thick_pressure`: -(x - 1)(x^2 + 14 x - 35) / (6 l^13) (T/R)^3 with x = l^3. A shell with bending
+    of that order follows it; the remainder is O((T/R)^5).
+    """
+    x = stretch**3
+    cubic = -(x - 1.0) * (x**2 + 14.0 * x - 35.0) / (6.0 * stretch**13)
+    return membrane_pressure(stretch, thickness_ratio) + cubic * thickness_ratio**3
+
+
 def thick_slope(stretch: float, thickness_ratio: float, law: Law | None = None) -> float:
     """Derivative of `thick_pressure` with respect to the mid-surface stretch."""
     law = law or neo_hookean()

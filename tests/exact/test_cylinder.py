@@ -57,6 +57,8 @@ def test_thickness_cubed_coefficient() -> None:
     t = 0.02
     found = (cylinder.thick_pressure(x, t) - cylinder.membrane_pressure(x, t)) / t**3
     assert found == pytest.approx(expected, rel=1e-3)
+    left = [cylinder.thick_pressure(x, t) - cylinder.bending_pressure(x, t) for t in (0.2, 0.1)]
+    assert math.log2(left[0] / left[1]) == pytest.approx(5.0, abs=0.02)
 
 
 def test_no_limit_point_and_supremum() -> None:

@@ -72,6 +72,8 @@ def test_thickness_cubed_coefficient() -> None:
     assert expected == pytest.approx(-0.0481, abs=1e-4)
     found = (sphere.thick_pressure(x, t) - sphere.membrane_pressure(x, t)) / t**3
     assert found == pytest.approx(expected, rel=2e-3)
+    left = [sphere.thick_pressure(x, t) - sphere.bending_pressure(x, t) for t in (0.2, 0.1)]
+    assert math.log2(left[0] / left[1]) == pytest.approx(5.0, abs=0.02)
 
 
 @pytest.mark.parametrize("theory", ["membrane", "thick"])
