@@ -28,7 +28,7 @@ from problems.exact.material import Law, neo_hookean
 from problems.exact.roots import bracketed_root, increasing_root
 
 Array = npt.NDArray[np.float64]
-TOLERANCES = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15}
+RELATIVE, ABSOLUTE = 1e-13, 1e-15  # of the integrations
 APEX = 1e-6  # where the integration starts, in radii: its error is the square
 LOCKED = 1e6  # stands for an infinite stress
 LARGEST_STRETCH = 10.0  # the limit pressure is sought up to this apex stretch
@@ -105,7 +105,9 @@ def _integrate(apex: float, load: float, law: Law, end: float, dense: bool = Fal
         dense_output=dense,
         events=clamped if stop else None,
         first_step=APEX,
-        **TOLERANCES,
+        method="DOP853",
+        rtol=RELATIVE,
+        atol=ABSOLUTE,
     )
 
 
@@ -122,14 +124,15 @@ def state(apex_stretch: float, law: Law | None = None) -> Inflated:
     near = float(_integrate(apex_stretch, load, law, 100.0, stop=True).t[-1])
     values = _integrate(apex_stretch, load, law, near).y[:, -1]
 
-    def by_hoop(_: float, y: Array) -> list[float]:
+    def by_hoop(hoop: float, y: Array) -> list[float]:
         """The rest of the way with l2 as the variable (Henon's trick): it ends exactly at the rim."""
-        rates = _rates(y[0], _, y[1], load, law)
+        rates = _rates(float(y[0]), hoop, float(y[1]), load, law)
         return [1.0 / rates[0], *(rate / rates[0] for rate in rates[1:])]
 
     last = [near, *values[1:]]
     if values[0] != 1.0:
-        last = list(solve_ivp(by_hoop, (values[0], 1.0), last, **TOLERANCES).y[:, -1])
+        span = float(values[0]), 1.0
+        last = list(solve_ivp(by_hoop, span, last, method="DOP853", rtol=RELATIVE, atol=ABSOLUTE).y[:, -1])
     radius, _, height, volume = (float(x) for x in last)
     return Inflated(apex_stretch, load * radius, -height / radius, volume / radius**3, law)
 

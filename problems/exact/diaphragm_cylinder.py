@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -89,7 +90,7 @@ class DiaphragmCylinder:
         nodes, weights = legendre.leggauss(degree + 10)
         angle = half_angle * nodes
         basis = [legendre.legval(nodes, c) for c in np.eye(degree + 1)]
-        p = np.array(basis).T
+        p = np.asarray(basis, dtype=np.float64).T
         d1 = np.array([legendre.legval(nodes, legendre.legder(c)) for c in np.eye(degree + 1)]).T / half_angle
         d2 = np.array([legendre.legval(nodes, legendre.legder(c, 2)) for c in np.eye(degree + 1)]).T / half_angle**2
         scale = weights * half_angle * self.radius
@@ -107,7 +108,7 @@ class DiaphragmCylinder:
             total += math.sin(0.5 * m * math.pi) * (v * math.sin(half_angle) - w * math.cos(half_angle))
         return total
 
-    def _panel_strains(self, k: float, p: Array, d1: Array, d2: Array, zero: Array) -> tuple[list[Array], list[Array]]:
+    def _panel_strains(self, k: float, p: Any, d1: Any, d2: Any, zero: Any) -> tuple[list[Array], list[Array]]:
         """Strains and changes of curvature of the coefficients (u, v, w) at the nodes."""
         r = self.radius
         membrane = [

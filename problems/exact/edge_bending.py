@@ -27,7 +27,7 @@ class Tube:
     @property
     def decay(self) -> float:
         """b, per length."""
-        return (3.0 * (1.0 - self.poisson_ratio**2)) ** 0.25 / math.sqrt(self.radius * self.thickness)
+        return float((3.0 * (1.0 - self.poisson_ratio**2)) ** 0.25) / math.sqrt(self.radius * self.thickness)
 
     @property
     def stiffness(self) -> float:

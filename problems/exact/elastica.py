@@ -69,7 +69,7 @@ def shape_under_force(load: float, s: npt.ArrayLike) -> tuple[Array, Array, Arra
     second = np.where(points == 1.0, ellipe(m), ellipeinc(amplitude, m))
     y = points - 2.0 / root * (second - ellipeinc(start, m))
     x = math.sqrt(2.0 / load) * (math.sqrt(tip) - np.sqrt(np.maximum(tip - sine, 0.0)))
-    return x, y, np.arcsin(np.clip(sine, -1.0, 1.0))
+    return np.asarray(x), np.asarray(y.real), np.arcsin(np.clip(sine, -1.0, 1.0))
 
 
 def end_moment(load: float) -> Tip:

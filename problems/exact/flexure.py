@@ -21,7 +21,7 @@ from problems.exact.material import Law, MooneyRivlin, neo_hookean
 
 def mid_stretch(curvature: float) -> float:
     """Stretch l of the material mid-surface at t = c T: 1 + t^2/4 - ... (a thin shell without this term has 1)."""
-    return (1.0 + curvature**2) ** 0.25
+    return math.sqrt(math.hypot(1.0, curvature))
 
 
 def face_stretches(curvature: float) -> tuple[float, float]:

@@ -51,8 +51,8 @@ def _series() -> tuple[Array, Array]:
     return m, inverse
 
 
-def _sum(coefficients: Array, square: npt.ArrayLike) -> Array:
-    return np.polynomial.polynomial.polyval(np.asarray(square, dtype=np.float64), coefficients)
+def _sum(coefficients: Array, square: Array | float) -> Array:
+    return np.asarray(np.polynomial.polynomial.polyval(square, coefficients), dtype=np.float64)
 
 
 def _deflection(x: npt.ArrayLike, force: float) -> Array:

@@ -1,7 +1,7 @@
 """Hinged cylindrical roofs of Sze, Liu and Lo (2004), isotropic: snap-through and snap-back.
 
 Paths as quoted in MBDyn tests/plates/sze2004/sze38 (files a and d); the geometry also in the Kratos documentation
-and, with a whole path by arc length, in Kadapa, Eng. Struct. (2021), doi:10.1016/j.engstruct.2020.111755. The
+and, for the thin roof by arc length, in C. Kadapa, Eng. Struct. (2021), doi:10.1016/j.engstruct.2020.111755. The
 problem is A. B. Sabir and A. C. Lock's (1972).
 """
 
