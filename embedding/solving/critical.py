@@ -114,16 +114,18 @@ class Search:
         count, values, modes = low.unstable, dict[float, float](), list[Array]()
 
         def aside(probe: Point) -> bool:
-            value, vectors = nearest_mode(self._corrector.equilibrium, modes[-1] if modes else None)
-            values[probe.place] = value
-            modes.append(vectors)
+            try:
+                values[probe.place], vectors = nearest_mode(self._corrector.equilibrium, modes[-1] if modes else None)
+                modes.append(vectors)
+            except LinearSolverError:  # so close to the singular matrix that nothing can be solved with it
+                values[probe.place] = 0.0
             return probe.unstable == count
 
         def root(first: Point, last: Point) -> float:
             return _secant(values, first.place, last.place)
 
         found = self._closing_in(low, high, root, aside)
-        if found is None:
+        if found is None or not modes:
             return None
         before, after = found
         point = self._interpolated(before, after, root(before, after))

@@ -122,7 +122,7 @@ class Walk:
 
     def go_on_from(self, point: Point, length: float) -> None:
         """Leave the path: the last step ended at ``point``, on another one, to be left in steps of ``length``."""
-        self.length = min(self.length, length)
+        self.length = length
         self._older, self.before, self.here, self.done = None, None, point, False
 
     def _attempt(self) -> Result | None:

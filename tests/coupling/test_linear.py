@@ -78,6 +78,9 @@ class Spoiled:
             raise RuntimeError("matrix singular")
         return self.spoil.get(inverse, 1.0) * self.matrix.Inverse(free, inverse=inverse)
 
+    def COO(self) -> Any:
+        return self.matrix.COO()
+
     def __mul__(self, vector: Any) -> Any:
         return self.matrix * vector
 
