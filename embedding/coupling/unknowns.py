@@ -77,9 +77,12 @@ class Unknowns:
         return {0: "shell", 1: self.domain.materials(SIDES[closed[0]]) if closed else "", 2: ""}[len(closed)]
 
     def _condense(self) -> Mask | None:
-        """Mark the unknowns that are eliminated element by element; all others stay in the global system."""
+        """Mark the unknowns that are eliminated element by element; all others stay in the global system.
+
+        With a field none are: beside volume elements NGSolve does not eliminate what belongs to surface elements.
+        """
         name = self.bending.condensed if self.bending is not None else None
-        if name is None:
+        if name is None or self.potential is not None:
             return None
         mask = np.zeros(self.space.ndof, bool)
         mask[self.range(name)] = True
