@@ -11,7 +11,10 @@ meridian, R its distance from the axis and rho that of the deformed one, the cov
 where K = -Grad N is the reference curvature. Source: the Gauss formula r_,ab = Gamma^c_ab r_,c + (the above) in
 coordinates (s, phi); M. do Carmo, Differential Geometry of Curves and Surfaces (1976), section 4-3.
 
-Second derivatives of a displacement of order k are right to order k - 1 in the mesh size, and absent for k = 1.
+Second derivatives of a displacement of order k are right to order k - 1 in the mesh size, and absent for k = 1. They
+oscillate between a few points of each element (J. Barlow, Int. J. Num. Meth. Eng. 10 (1976) 243-251), most of all on
+cubic elements: up to order 3, curvatures are projected to linear functions on every element. Measured at the nodes of
+deformed spheres, tubes, tori and rings: at order 3 up to three times better, at order 2 a little, at order 4 worse.
 """
 
 from __future__ import annotations
@@ -19,7 +22,22 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Any
 
-from ngsolve import CF, Cross, Grad, IfPos, InnerProduct, Normalize, OuterProduct, x, y, z
+from ngsolve import (
+    BND,
+    CF,
+    Cross,
+    Grad,
+    GridFunction,
+    Id,
+    IfPos,
+    InnerProduct,
+    Normalize,
+    OuterProduct,
+    SurfaceL2,
+    x,
+    y,
+    z,
+)
 
 from embedding.geometry.domain import Domain
 from embedding.shell.kinematics import Kinematics
@@ -34,11 +52,14 @@ LIFTS = {
 }
 MISSING = {"axisymmetric": (0, 1, 0), "plane-strain": (0, 0, 1)}
 ALIGNED = 0.99
+SMOOTHED = 3
 Vector3 = tuple[float, float, float]
 
 
 class Derivatives:
     """Derivatives of the reference and the deformed position; all are coefficient functions on the shell.
+
+    Curvatures are those of the displacement when they are first asked for; all else is live.
 
     ``kinematics`` must be that of a grid function u. ``frame`` is an orthonormal tangent frame (E_1, E_2) with
     E_1 x E_2 = N: in 3D, E_1 is ``direction`` projected to the surface (where they are nearly normal to each other, the
@@ -47,7 +68,7 @@ class Derivatives:
     """
 
     def __init__(self, domain: Domain, kinematics: Kinematics, direction: Vector3 = (1.0, 0.0, 0.0)) -> None:
-        self.reduction, self.kinematics = domain.reduction, kinematics
+        self.domain, self.reduction, self.kinematics = domain, domain.reduction, kinematics
         self.direction = direction
         self._lift = CF(LIFTS[self.reduction.name], dims=(3, self.reduction.dimension))
         self._missing = CF(MISSING[self.reduction.name]) if self.reduction.dimension == 2 else None
@@ -99,6 +120,10 @@ class Derivatives:
     @cached_property
     def curvature(self) -> Any:
         """Reference curvature K = - Grad N, 3 x 3; -1/R times the projector on a sphere with its normal outwards."""
+        return self._smoothed(self._curvature, self.reference_normal)
+
+    @cached_property
+    def _curvature(self) -> Any:
         mesh_normal = self.reduction.normal
         sign = InnerProduct(self.kinematics.reference_normal, mesh_normal)
         inplane = self._lift * (-sign * Grad(mesh_normal)) * self._lift.trans
@@ -114,7 +139,17 @@ class Derivatives:
         e, f = self.frame
         (p, q), n = dual((self.gradient * e, self.gradient * f)), self.normal
         along, mixed, around = (InnerProduct(n, second) for second in self._seconds)
-        return OuterProduct(p, along * p + mixed * q) + OuterProduct(q, mixed * p + around * q)
+        return self._smoothed(OuterProduct(p, along * p + mixed * q) + OuterProduct(q, mixed * p + around * q), n)
+
+    def _smoothed(self, tensor: Any, normal: Any) -> Any:
+        """A tangential tensor, projected to linear functions on every element up to order 3."""
+        if self.domain.sizes.order > SMOOTHED:
+            return tensor
+        space = SurfaceL2(self.domain.mesh, order=1, definedon=self.domain.shell, dim=9)
+        field = GridFunction(space)
+        field.Set(tensor.Reshape((9,)).Compile(), BND, definedon=self.domain.shell)
+        tangential = Id(3) - OuterProduct(normal, normal)
+        return tangential * field.Reshape((3, 3)) * tangential
 
     def second(self, first: Any, other: Any) -> Any:
         """Covariant second derivative of the deformed position in two tangential directions, shape (3,)."""
@@ -138,7 +173,7 @@ class Derivatives:
     def _hessian(self, first: Any, other: Any) -> Any:
         d = self.reduction.dimension
         pair = OuterProduct(self._lift.trans * first, self._lift.trans * other).Reshape((d * d,))
-        bend = InnerProduct(first, self.curvature * other) * self.reference_normal
+        bend = InnerProduct(first, self._curvature * other) * self.reference_normal
         return self.lifted(self.kinematics.u.Operator("hesseboundary") * pair) + bend
 
 

@@ -11,7 +11,8 @@ p = lambda_n dW/dlambda_n - sigma_nn, at the mid-surface of a neo-Hookean shell 
 of second order in the thickness. A law of small strains shifts the stress in the layer by nu/(1 - nu) sigma_nn instead,
 and its layers lie at lambda eta.
 
-Source: theory page, "Pressure in three dimensions" (E12 of the errata) and "Bending" (the height z_2).
+Source: errata E12; z_2 from equal volumes of the deformed and the reference layer below a point,
+zeta - h zeta^2 + ... = lambda (eta - H eta^2 + ...).
 """
 
 from __future__ import annotations
