@@ -9,6 +9,7 @@ UNITS = {
     "pressure_difference": "Pa",
     "min_principal_stress": "Pa",
     "voltage": "V",
+    "displacement": "m",
 }
 EXTENSIVE = {
     "charge": "C",

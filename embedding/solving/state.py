@@ -153,6 +153,7 @@ class State:
         """Named numbers of the present state in SI units (plane strain: per metre of the cylinder)."""
         top, bottom = self.mean_pressures()
         named = self._stretches() | {
+            "displacement": self._scales.length * self.displacement,
             "pressure_top": top,
             "pressure_bottom": bottom,
             "pressure_difference": self._pressure_difference(),
@@ -175,6 +176,12 @@ class State:
         area = self._domain.shell_integral(1.0)
         forces = [float(self._values[f"rigid{i}"].vec[0]) for i in range(len(self._unknowns.rigid))]
         return area * math.sqrt(sum(force**2 for force in forces))
+
+    @property
+    def displacement(self) -> float:
+        """Root mean square of the displacement over the shell, in shell sizes."""
+        u = self._values["u"]
+        return math.sqrt(self._domain.shell_integral(InnerProduct(u, u)) / self._domain.shell_integral(1.0))
 
     def _stretches(self) -> dict[str, float]:
         area = self._domain.shell_integral(1.0)
