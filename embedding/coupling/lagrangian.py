@@ -24,8 +24,8 @@ from embedding.coupling.unknowns import SIDES, Unknowns
 from embedding.geometry.domain import Domain
 from embedding.shell.edges import edge_residual
 from embedding.shell.kinematics import Kinematics, surface_gradient
-from embedding.shell.membrane import Membrane
 from embedding.shell.loads import dead_load_energy, enclosed_volume, follower_residual
+from embedding.shell.membrane import Membrane
 
 ANCHOR = 1e-6
 """Stiffness, relative to the shell's, that ties each face to where it is. It changes no residual, only the matrix:

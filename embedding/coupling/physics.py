@@ -31,9 +31,10 @@ class Physics:
 
     ``thickness`` is a number, or a coefficient function of the reference where it varies. ``supports`` lists the
     (where, component) pairs that are held, ``prescribed`` those of them that are held at a displacement, its third
-    entry; where is an edge, a face, "surface" or a point in mesh coordinates. ``clamped`` names the edges about which the shell
-    cannot turn. ``opened`` names the faces ("t", "b") that are placed at their true positions; the others count as
-    lying at the mid-surface.
+    entry; where is an edge, a face, "surface" or a point in mesh coordinates. ``clamped`` names the edges about which
+    the shell cannot turn. ``opened`` names the faces ("t", "b") that are placed at their true positions; the others
+    count as lying at the mid-surface. With ``bending`` the shell resists it; ``locking_cured`` says whether membrane
+    strains are interpolated for it.
     """
 
     law: Law

@@ -1,4 +1,4 @@
-"""Facets of the shell by number (edges of triangles, or vertices where the shell is a curve), and what lives on them."""
+"""Facets of the shell by number (edges of triangles, vertices where the shell is a curve), and what lives on them."""
 
 from __future__ import annotations
 

@@ -122,5 +122,6 @@ class Reduction:
         if self.name == "plane-strain":
             turns = np.zeros((0, 3)) if self.planes else np.array([[0.0, 0.0, 1.0]])
         else:
-            turns = np.array([np.eye(3)[i] for i, axis in enumerate("xyz") if set(self.planes) <= {axis}]).reshape(-1, 3)
+            about = [i for i, axis in enumerate("xyz") if set(self.planes) <= {axis}]
+            turns = np.eye(3)[about]
         return np.concatenate([shifts, turns])

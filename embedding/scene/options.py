@@ -42,7 +42,8 @@ def _table(value: Any) -> Any:
 
 
 class Discretisation(Part):
-    """Polynomial order, cure of membrane locking under bending, mesh sizes in m on the shell and far away, and how fast sizes may change.
+    """Polynomial order, cure of membrane locking under bending, mesh sizes in m on the shell and far away, and how fast
+    sizes may change.
 
     ``edge_size`` holds smaller sizes along edges of the shape, by their names.
     """

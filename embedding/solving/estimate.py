@@ -6,8 +6,8 @@ well, and two Newton steps are taken there: their effect on the answer estimates
 Model: with t the deformed thickness and r the deformed radius, the load that membrane theory gives for a stretch is
 off by up to 0.8 (t/r)^2 of itself, and the load of a field on closed faces by up to 1.6 t/r: bounds of what was
 measured against exact thick spheres and tubes. A shell that is bent rather than stretched leaves out transverse shear,
-0.6 (T/L)^2 of the deflection of a cantilever, and a law of small strains is off by the strain. A relative error of the load becomes one of the stretch through the
-response d ln(stretch) / d ln(load) of the last steps.
+0.6 (T/L)^2 of the deflection of a cantilever, and a law of small strains is off by the strain. A relative error of the
+load becomes one of the stretch through the response d ln(stretch) / d ln(load) of the last steps.
 """
 
 from __future__ import annotations
@@ -140,7 +140,7 @@ class Enriched(Problem):
         elif name == "rotation":
             facets = np.flatnonzero(self.domain.facets.neighbours > 0)
             for facet in facets:  # the polynomials on an edge are hierarchical
-                old, new = (unknowns_on(field.space, facet[None]) for field in (present, richer))
+                old, new = (unknowns_on(field.space, np.array([facet])) for field in (present, richer))
                 richer.vec.FV().NumPy()[new[: len(old)]] = present.vec.FV().NumPy()[old]
 
     def improve(self, target: Target) -> bool:

@@ -107,6 +107,10 @@ class State:
             Field("shell", "thickness_stretch", "1", self._system.physics.law.thickness_stretch(k)),
             Field("shell", "normal", "1", k.normal),
         ]
+        if self._unknowns.bending is not None:
+            moments = self._unknowns.bending.principal_moments(self._values, k)
+            for name, moment in zip(("moment_major", "moment_minor"), moments, strict=True):
+                out.append(Field("shell", name, "N", scales.force * moment))
         for face, traction in self._system.tractions.items():
             kinematics = self._kinematics(self._system.lagrangian.face(face))
             out.append(Field("shell", f"t_{face}", "Pa", scales.stress * traction.tangential(kinematics)))

@@ -10,6 +10,8 @@ NAMES = {
     "stretch_major": "larger principal stretch",
     "stretch_minor": "smaller principal stretch",
     "thickness_stretch": "thickness stretch",
+    "moment_major": "larger bending moment",
+    "moment_minor": "smaller bending moment",
     "p_t": "top face pressure $p_t$",
     "p_b": "bottom face pressure $p_b$",
     "u": "displacement $|u|$",

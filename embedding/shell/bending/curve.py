@@ -4,10 +4,10 @@ The mixed method shrinks to one continuous scalar along the curve. With theta th
 the deformed one and c = +-1 the hand of tangent and normal, b_ss = c |F t| (theta_0' + theta'), so that
 
     K_ss = lambda b_ss - B_ss C_ss = c theta' / hoop + B_ss (1 / hoop - C_ss)
-    K_hh = lambda b_hh - B_hh C_hh = - lambda n_r hoop / R + N_r hoop^2 / R        (axisymmetry; 0 in plane strain)
+    K_hh = lambda b_hh - B_hh C_hh = - lambda n_r hoop / R + N_r hoop^2 / R   (axisymmetry; 0 in plane strain)
 
-The unknown is q = m_ss R / hoop (plane strain: m_ss / hoop), continuous where the moment balance wants it; integrated by
-parts, int q c theta' = - int c q' theta, neither second derivatives nor jumps appear, and kinks keep their angle.
+The unknown is q = m_ss R / hoop (plane strain: m_ss / hoop), continuous where the moment balance wants it; integrated
+by parts, int q c theta' = - int c q' theta, neither second derivatives nor jumps appear, and kinks keep their angle.
 Where a rotation is free q is given (the moment there, or 0); where it is held q is free, and the angle is held by the
 equation itself. Source: theory page, "Bending".
 """
@@ -18,13 +18,15 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from ngsolve import BND, CF, H1, Grad, GridFunction, InnerProduct, Parameter, SurfaceL2, atan2, cos, sin, specialcf, x
+from ngsolve import BND, CF, Grad, GridFunction, IfPos, InnerProduct, SurfaceL2, atan2, cos, sin, specialcf, x
 
 from embedding.geometry.domain import Domain
 from embedding.geometry.ends import facets_named
 from embedding.geometry.spaces import Mask, TraceSpace
 from embedding.shell.bending.stiffness import EdgeMoments, Stiffness
 from embedding.shell.kinematics import Kinematics, surface_gradient
+
+ON_AXIS = 1e-9
 
 
 class CurveBending:
@@ -43,7 +45,7 @@ class CurveBending:
         fixed = np.zeros(self._trace.scalar.ndof, bool)
         fixed[free_ends] = True
         if self._axisymmetric:
-            fixed[[v.nr for v in domain.mesh.vertices if abs(v.point[0]) < 1e-9]] = True
+            fixed[[v.nr for v in domain.mesh.vertices if abs(v.point[0]) < ON_AXIS]] = True
         self._trace.fix(0, fixed)
         self._given = GridFunction(self._trace.scalar)
         for edge, given in moments:
@@ -96,6 +98,22 @@ class CurveBending:
         """Bending energy per reference area of converged moments, as a coefficient function."""
         moment = self._moment(values["moment"], kinematics)
         return self.stiffness.stored(kinematics, moment, self._hoop_curvature(kinematics))
+
+    def principal_moments(self, values: dict[str, Any], kinematics: Kinematics) -> tuple[Any, Any]:
+        """Larger and smaller of meridional and hoop bending moment per deformed length, lambda l_i^2 m_ii / J_s."""
+        q = values["moment"]
+        moment, hoop_curvature = q * kinematics.hoop, CF(0.0)
+        if self._axisymmetric:
+            on_axis = InnerProduct(surface_gradient(q), self._tangent) / self._tangent[0]  # q / R where R = 0
+            moment = IfPos(x - ON_AXIS, q / x, on_axis) * kinematics.hoop
+            N = kinematics.reference_normal
+            spread = IfPos(x - ON_AXIS, (N[0] * kinematics.hoop - kinematics.director[0]) / x, CF(0.0))
+            hoop_curvature = spread * kinematics.hoop
+        F, area = kinematics.deformation_gradient, kinematics.surface_stretch_squared
+        around = self.stiffness.hoop_moment(kinematics, moment, hoop_curvature) * kinematics.hoop**2 / area
+        along = moment * InnerProduct(F, F) / area
+        around = IfPos(x - ON_AXIS, around, along) if self._axisymmetric else around
+        return IfPos(along - around, along, around), IfPos(along - around, around, along)
 
     def refresh(self, kinematics: Kinematics) -> None:
         """Count the angle on from the present state, given by its ``kinematics`` on grid functions."""

@@ -62,6 +62,16 @@ class Stiffness:
         relative = hoop / kinematics.hoop**2
         return (moment * along - 2 * A * relative) ** 2 / (8 * A) - 2 * A * relative**2
 
+    def hoop_moment(self, kinematics: Kinematics, moment: Any, hoop: Any) -> Any:
+        """m_hh from the meridional ``moment`` and the ``hoop`` curvature measure."""
+        if not self.law.incompressible:
+            E, nu = self.law.youngs, self.law.poisson
+            return nu * moment + E * self.thickness**3 / 12 * hoop
+        A = self.law.bending_modulus(kinematics) * self.thickness**3 / (12 * kinematics.surface_stretch_squared)
+        along = InnerProduct(kinematics.deformation_gradient, kinematics.deformation_gradient)
+        around = kinematics.hoop**2
+        return (moment * along / 2 + 3 * A * hoop / around) / around
+
     def stored(self, kinematics: Kinematics, moment: Any, hoop: Any) -> Any:
         """W_b at the meridional ``moment`` and the ``hoop`` curvature measure: m K_ss - W_b*, K_ss its derivative."""
         if not self.law.incompressible:

@@ -4,7 +4,8 @@ The moment tensor m lives element by element and is eliminated there; its normal
 by one rotation per edge, which is what remains beside the displacement. With d = lambda n, N the reference normal,
 t and nu the tangent and the outward conormal of an element's edge,
 
-    sum over elements of  int m : [Hess(u) . d - (N . d) Grad N + sym(Grad N C)]  +  oint (angle / |F t| + rotation) m_nu_nu
+    sum over elements of  int m : [Hess(u) . d - (N . d) Grad N + sym(Grad N C)]
+                          + oint (angle / |F t| + rotation) m_nu_nu
 
 is m : K with the distributional K = lambda b - sym(B C), B = -Grad N: the edge terms carry the angle between
 neighbouring elements. It is measured on each side from a common direction, the averaged normal of the present state;
@@ -22,14 +23,17 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from ngsolve import (
+    CF,
     ET,
     Cross,
     Grad,
     GridFunction,
     HDivDivSurface,
+    IfPos,
     InnerProduct,
     IntegrationRule,
     NormalFacetSurface,
+    Trace,
     VectorFacetSurface,
     atan2,
     ds,
@@ -141,6 +145,15 @@ class SurfaceBending:
     def stored(self, values: dict[str, Any], kinematics: Kinematics) -> Any:
         """Bending energy per reference area of converged moments, as a coefficient function: W_b = W_b* there."""
         return self.stiffness.dual(kinematics, values["moment"])
+
+    def principal_moments(self, values: dict[str, Any], kinematics: Kinematics) -> tuple[Any, Any]:
+        """Larger and smaller principal bending moment per deformed length, of lambda F m F^T / J_s."""
+        F = kinematics.deformation_gradient
+        pushed = (F * values["moment"]) * F.trans / kinematics.surface_stretch_squared
+        half = Trace(pushed) / 2
+        inside = InnerProduct(pushed, pushed) / 2 - half * half
+        root = sqrt(IfPos(inside, inside, CF(0.0)))
+        return half + root, half - root
 
     def refresh(self, kinematics: Kinematics) -> None:
         """Take the averaged normal from the present state, given by its ``kinematics`` on grid functions."""
