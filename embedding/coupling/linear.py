@@ -24,8 +24,8 @@ ACCURATE, REFINE = 1e-8, 1e-11
 BACKWARD, SINGULAR = 1e-12, 5e-14
 """Where motions are soft, as in the bending of thin shells, rounding leaves more. A solve is accurate, too, if its
 residual is that of entries of matrix and load changed by ``BACKWARD`` of themselves (Oettli and Prager, Numer. Math. 6
-(1964) 405), unless the load is less than ``SINGULAR`` of what cancels in the product of matrix and update: up to 2e-14 for singular matrices, 1e-13 for a
-strip whose length is a million times its thickness."""
+(1964) 405), unless the load is less than ``SINGULAR`` of what cancels in the product of matrix and update: up to 2e-14
+for singular matrices, 1e-13 for a strip whose length is a million times its thickness."""
 
 
 @contextlib.contextmanager

@@ -28,8 +28,9 @@ LAUNCHES = 6
 """How often the first step out of a singular state is halved."""
 IMPATIENT = 0.2
 """A first step from rest is cut no shorter than this part before another way is tried."""
-COMPRESSED = 5
-"""How often a step into compression is halved, to end close to where it begins."""
+RETRIES = 5
+"""How often a step into compression is halved, to end close to where it begins, and one that is too long to find the
+critical points in it."""
 
 
 class ArcStage:
@@ -117,39 +118,44 @@ class ArcStage:
 
     def _step(self, walk: Walk) -> Result | None:
         """One accepted step, with the critical points on the way to it."""
-        for attempt in range(COMPRESSED + 1):
+        for attempt in range(RETRIES + 1):
             reason = walk.advance()
             if reason is not None:
                 return reason
-            known = len(self.session.critical)
-            switched = self._look_between(walk)
-            reason = self._accepted(walk.here)
-            if reason is None or switched:
-                return reason
-            del self.session.critical[known:]
+            critical, iterations = self._critical(walk), self._iterations
+            if critical is None and attempt < RETRIES:
+                reason = Result.STEP_BELOW_MINIMUM
+            else:
+                switched = self._passed(walk, critical or [])
+                reason = self._accepted(walk.here, iterations)
+                if reason is None or switched:
+                    return reason
             walk.retract()
-            if attempt == COMPRESSED or not walk.shorten(reason):
+            if attempt == RETRIES or not walk.shorten(reason):
                 return reason
         return Result.COMPRESSIVE_MEMBRANE
 
-    def _accepted(self, here: Point) -> Result | None:
+    def _accepted(self, here: Point, iterations: list[Iteration]) -> Result | None:
         self.path.restore(here.saved)
         target = self.path.target(here.parameter)
-        iterations, self._iterations = self._iterations, []
         reason = self.session.accept(self.stage.name, target, iterations, self._started, here.unstable)
         if reason is None:
             self._good, self._started = here.saved, time.perf_counter()
         return reason
 
-    def _look_between(self, walk: Walk) -> bool:
-        """Locate the critical points of the last step and record them; True if the path was left at one of them."""
+    def _critical(self, walk: Walk) -> list[Critical] | None:
+        """The critical points of the last step; None if it was too long to find them."""
         low, high = walk.before, walk.here
         if low is None or (low.unstable == high.unstable and low.turns_with(high)):
-            return False
+            return []
         kept = self._iterations
         found = Search(self.corrector, walk.metric, self._watch).between(low, high)
         self._iterations = kept
-        for one in found:
+        return found
+
+    def _passed(self, walk: Walk, critical: list[Critical]) -> bool:
+        """Record the critical points of the last step; True if the path was left at one of them."""
+        for one in critical:
             self.path.restore(one.point.saved)
             self.session.passed(self.stage.name, self.path.target(one.parameter), one)
             if one.kind == "bifurcation" and self._leaves(walk, one):

@@ -17,6 +17,7 @@ import numpy as np
 import scipy.linalg
 
 from embedding.coupling.linear import LinearSolverError
+from embedding.errors import EmbeddingError
 from embedding.solving.continuation import Array, Corrector, Direction, Equilibrium, Metric, Watch
 from embedding.solving.curve import Curve, Point
 
@@ -43,21 +44,26 @@ class Critical:
     point: Point
 
 
+class LostError(EmbeddingError):
+    """A state between two others could not be solved for."""
+
+
 class Search:
     """Looks between two neighbouring points of a path for critical ones."""
 
     def __init__(self, corrector: Corrector, metric: Metric, watch: Watch) -> None:
         self._corrector, self._metric, self._watch = corrector, metric, watch
 
-    def between(self, low: Point, high: Point) -> list[Critical]:
-        """The critical points of the step from ``low`` to ``high`` that can be located, in their order.
+    def between(self, low: Point, high: Point) -> list[Critical] | None:
+        """The critical points of the step from ``low`` to ``high`` in their order; None if the step is too long to
+        find them.
 
         The equilibrium is left anywhere; restore it.
         """
         try:
             return list(self._found(low, high))
-        except LinearSolverError:
-            return []
+        except LostError:
+            return None
 
     def _found(self, low: Point, high: Point) -> Iterator[Critical]:
         before, after = low, high
@@ -69,14 +75,14 @@ class Search:
             low = after
         yield from self._bifurcations(low, high)
 
-    def _probe(self, low: Point, high: Point, place: float) -> Point | None:
-        """The state of the path at ``place`` between two points; None if it cannot be solved for."""
+    def _probe(self, low: Point, high: Point, place: float) -> Point:
+        """The state of the path at ``place`` between two points. Raises LostError."""
         guess = Curve(low, high).at(place)
         chord = Direction(high.values - low.values, high.parameter - low.parameter)
         plane = self._metric.plane(self._metric.unit(chord), guess.values, guess.parameter)
         correction = self._corrector.correct(guess.values, guess.parameter, plane, self._watch, thorough=True)
         if correction.reason is not None or correction.response is None:
-            return None
+            raise LostError(f"no equilibrium at {place}")
         tangent = self._metric.unit(Direction(correction.response, 1.0))
         if self._metric.inner(tangent, chord) < 0.0:
             tangent = tangent.scaled(-1.0)
@@ -92,24 +98,21 @@ class Search:
         def aside(probe: Point) -> bool:
             return _rate(probe) * _rate(low) > 0.0
 
-        found = self._closing_in(low, high, _turning, aside)
-        if found is None:
-            return None
-        before, after = found
-        point = self._interpolated(before, after, _turning(before, after))
+        def turning(first: Point, last: Point) -> float:
+            return _turning(first, last) if first is low and last is high else _balance(first, last)
+
+        before, after = self._closing_in(low, high, turning, aside)
+        point = self._interpolated(before, after, _balance(before, after))
         mode = self._normalised(after.values - before.values)
         return before, after, Critical("limit", point.parameter, mode, (before.unstable, after.unstable), point)
 
     def _bifurcations(self, low: Point, high: Point) -> Iterator[Critical]:
         """Where eigenvalues change their sign, one after the other."""
         while low.unstable is not None and high.unstable is not None and low.unstable != high.unstable:
-            found = self._first_change(low, high)
-            if found is None:
-                return
-            critical, low = found
+            critical, low = self._first_change(low, high)
             yield critical
 
-    def _first_change(self, low: Point, high: Point) -> tuple[Critical, Point] | None:
+    def _first_change(self, low: Point, high: Point) -> tuple[Critical, Point]:
         """The first place where the number of unstable modes changes, and the state close behind it."""
         count, values, modes = low.unstable, dict[float, float](), list[Array]()
 
@@ -124,10 +127,9 @@ class Search:
         def root(first: Point, last: Point) -> float:
             return _secant(values, first.place, last.place)
 
-        found = self._closing_in(low, high, root, aside)
-        if found is None or not modes:
-            return None
-        before, after = found
+        before, after = self._closing_in(low, high, root, aside)
+        if not modes:
+            raise LostError("no mode")
         point = self._interpolated(before, after, root(before, after))
         mode = self._normalised(modes[-1][:, 0])
         unstable = (before.unstable, after.unstable)
@@ -135,11 +137,11 @@ class Search:
 
     def _closing_in(
         self, low: Point, high: Point, expected: Callable[[Point, Point], float], aside: Callable[[Point], bool]
-    ) -> tuple[Point, Point] | None:
+    ) -> tuple[Point, Point]:
         """Two solved states close to either side of what is expected at a place that depends on such a pair.
 
         ``aside`` says whether a state is still on the side of ``low``. The critical state itself is not solved for:
-        there the matrix is singular, and between states so close the cubic is as exact as they are.
+        there the matrix is singular, and between states so close the cubic is as exact as they are. Raises LostError.
         """
         whole = high.place - low.place
         for number in range(MOST_ROUNDS):
@@ -149,12 +151,10 @@ class Search:
                 if not low.place < at < high.place:
                     continue
                 probe = self._probe(low, high, at)
-                if probe is None:
-                    return None
                 low, high = (probe, high) if aside(probe) else (low, probe)
             if high.place - low.place <= CLOSE * whole * BESIDE[1]:
                 return low, high
-        return None
+        raise LostError("no bracket")
 
     def _interpolated(self, low: Point, high: Point, place: float) -> Point:
         """The state at ``place`` between two close ones."""
@@ -211,6 +211,11 @@ def _turning(low: Point, high: Point) -> float:
     roots = np.roots([3 * (first + last) - 6 * mean, 6 * mean - 4 * first - 2 * last, first])
     inside = [float(r.real) for r in np.atleast_1d(roots) if abs(r.imag) < 1e-9 and 0.0 < r.real < 1.0]
     return low.place + length * (inside[0] if inside else first / (first - last))
+
+
+def _balance(low: Point, high: Point) -> float:
+    """Where the line through the rates at two points is zero; they have different signs."""
+    return low.place + (high.place - low.place) * _rate(low) / (_rate(low) - _rate(high))
 
 
 def _secant(values: dict[float, float], low: float, high: float) -> float:

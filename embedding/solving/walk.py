@@ -36,6 +36,8 @@ REACH = 1.15
 FARTHEST, LONGEST = 0.2, 1.0
 """The longest first step, and the longest one of all, in sizes of the structure."""
 CUT = 0.5
+CLOSER, MOST_CLOSER = 0.8, 40
+"""By how much, and how often, a step is shortened that would change the parameter too much."""
 WEIGHT, LIGHTEST, HEAVIEST = 0.3, 1e-12, 0.3
 """Weight of the parameter in lengths: relative to the response at the start, and its bounds."""
 
@@ -127,6 +129,7 @@ class Walk:
 
     def _attempt(self) -> Result | None:
         curve = Curve(self.before, self.here)
+        self._keep_close(curve)
         crossing = self._crossing(curve, (self.here.place, self.here.place + REACH * self.length))
         if crossing is not None and not self._blind:
             point = self._landed(curve.at(crossing))
@@ -158,6 +161,14 @@ class Walk:
         self._accept(point)
         self._lengthen(growth)
         return None
+
+    def _keep_close(self, curve: Curve) -> None:
+        """Shorten a step that is expected to change the parameter by too much."""
+        for _ in range(MOST_CLOSER):
+            ahead = curve.at(self.here.place + self.length).parameter - self.here.parameter
+            if abs(ahead) <= self.stride.largest:
+                return
+            self.length *= CLOSER
 
     def _crossing(self, curve: Curve, ends: tuple[float, float]) -> float | None:
         """Where in ``ends`` the goal is met on ``curve``."""
