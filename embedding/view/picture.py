@@ -20,6 +20,7 @@ from embedding.view.surface import shell_surface
 REACH = 2.4  # how much of the ambient is shown, in sizes of the shell
 FIELD_FREE = 1e-3  # a side whose field is weaker than this part of the other's is left out
 MOVED = 0.02  # how far a shell must have moved, relative to its size, for its old outline to be shown
+BENT = 0.05  # how little a shell is stretched, relative to how far it has moved, for its displacement to be shown
 ROUNDING = 1e-7  # relative to the scales of a run
 CAPTION = {
     "voltage": "voltage",
@@ -34,14 +35,15 @@ def picture(
     output: str | os.PathLike[str],
     *,
     step: int = -1,
-    shell_field: str = "stretch",
+    shell_field: str | None = None,
     ambient_field: str | None = None,
     lines: bool = True,
     reach: float = REACH,
 ) -> Path:
     """Draw a step of an archive into the PNG file ``output``, and return its path.
 
-    The shell is shown deformed and coloured by ``shell_field``, with a quarter of a closed shell cut away;
+    The shell is shown deformed and coloured by ``shell_field`` (default: the stretch, or how far it has moved if it has
+    hardly been stretched), with a quarter of a closed shell cut away;
     the plane that the cut opens shows ``ambient_field`` (default: the strength of the electric or magnetic
     field) and field ``lines``, out to ``reach`` sizes of the shell. Axisymmetric results are revolved,
     plane-strain results extruded, mirrored parts completed. A side of the ambient that is free of field is
@@ -55,6 +57,7 @@ def picture(
     require_rendering()
     opened = open_archive(archive)
     number = opened.index(step)
+    shell_field = shell_field or _telling(opened, number)
     kind = tomllib.loads(opened.scene)["shell"]["shape"]["kind"]
     closed = kind == "sphere"
     view = {"sphere": "meridian", "infinite-cylinder": "cross-section"}.get(kind, "sheet")
@@ -62,7 +65,7 @@ def picture(
     across = surface.points[:, :2] if view == "cross-section" else surface.points - surface.centre
     size = float(np.linalg.norm(across, axis=1).max())
     unit = opened.block("shell").units[shell_field]
-    limits = colour_limits([surface.values], from_zero=False, noise=_noise(opened, unit))
+    limits = colour_limits([surface.values], from_zero=shell_field == "u", noise=_noise(opened, unit))
     canvas = Canvas(view)
     edge = 0.004 * size if view == "sheet" else _edge_radius(opened, number, size)
     canvas.shell(surface, limits, edge, quarter_cut=closed and opened.run["reduction"] == "3d")
@@ -75,6 +78,14 @@ def picture(
     title, note = opened.run["name"].replace("_", " "), "dashed: undeformed" if moved else ""
     page = Page(title, _caption(opened, number), tuple(bars), round_length(size), note)
     return page.save(canvas.draw(), Path(output))
+
+
+def _telling(archive: Archive, step: int) -> str:
+    """The stretch, or the displacement of a shell that is bent more than it is stretched."""
+    shell = archive.block("shell")
+    stretched = float(np.abs(shell.field("stretch", step) - 1.0).max())
+    moved = float(np.linalg.norm(shell.field("u", step), axis=1).max()) / archive.scales.length
+    return "u" if stretched < BENT * moved else "stretch"
 
 
 def _add_ambient(
