@@ -235,7 +235,8 @@ class Lagrangian:
     def symmetric(self) -> bool:
         """Do all loads have a potential, so that the Newton matrix is symmetric?"""
         loads = self.physics.loads
-        return not loads.turning and (self.pressure_has_potential or not loads.pressed)
+        turning = loads.turning or (bool(loads.edge_moments) and self.domain.mesh.dim == 3)
+        return not turning and (self.pressure_has_potential or not loads.pressed)
 
     def _residuals(self) -> list[Any]:
         physics = self.physics
@@ -245,6 +246,8 @@ class Lagrangian:
         factor = self.factors.mechanical
         v = self.unknowns.test["u"]
         terms = edge_residual(self.domain, physics.loads.edge_forces, kinematics, v, factor)
+        if self.unknowns.bending is not None:
+            terms += self.unknowns.bending.residuals(self.unknowns.trial, v, kinematics)
         if self.pressure_has_potential or not physics.loads.pressed:
             return terms
         terms += follower_residual(self.domain, physics.loads, physics.thickness, kinematics, v, factor)

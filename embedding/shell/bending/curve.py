@@ -77,6 +77,10 @@ class CurveBending:
         rest = rest - self.stiffness.partial_dual(kinematics, moment, self._hoop_curvature(kinematics))
         return [(pairing + measure * rest) * self.domain.surface()]
 
+    def residuals(self, values: dict[str, Any], test: Any, kinematics: Kinematics) -> list[Any]:
+        """None: an end does not turn but about its own axis, and moments there have a potential."""
+        return []
+
     def _moment(self, q: Any, kinematics: Kinematics) -> Any:
         """m_ss from the unknown q."""
         return q * kinematics.hoop / x if self._axisymmetric else q * kinematics.hoop

@@ -10,7 +10,9 @@ t and nu the tangent and the outward conormal of an element's edge,
 is m : K with the distributional K = lambda b - sym(B C), B = -Grad N: the edge terms carry the angle between
 neighbouring elements. It is measured on each side from a common direction, the averaged normal of the present state;
 the sum of the two sides does not depend on it, so it may be renewed at any time. Kinks and branches of the reference
-keep their angle.
+keep their angle. On an edge with a given moment there is one side alone, and how the angle changes as the edge turns
+within the surface does depend on it: a moment about an edge that turns has no potential (J. H. Argyris, Comput. Methods
+Appl. Mech. Eng. 32 (1982) 85), and its tangent is not symmetric.
 
 Source: M. Neunteufel and J. Schoeberl, The Hellan-Herrmann-Johnson method for nonlinear shells, Comput. Struct. 225
 (2019) 106109; the weight 1 / |F t| is the push-forward of the pairing, see the theory page, "Bending".
@@ -25,6 +27,7 @@ import numpy.typing as npt
 from ngsolve import (
     CF,
     ET,
+    Cof,
     Cross,
     Grad,
     GridFunction,
@@ -45,7 +48,7 @@ from embedding.geometry.domain import Domain
 from embedding.geometry.ends import directions, facets_named, facets_on_plane, unknowns_on
 from embedding.geometry.spaces import ON_PLANE, Mask, as_mask
 from embedding.shell.bending.stiffness import EdgeMoments, Stiffness
-from embedding.shell.kinematics import Kinematics
+from embedding.shell.kinematics import Kinematics, surface_gradient
 
 LEANING = 0.7
 """Largest cosine between a normal and the plane's axis for a shell that counts as crossing that plane."""
@@ -126,6 +129,34 @@ class SurfaceBending:
         angle = self._sign * InnerProduct(rotation, nu) * length
         return -given * self.domain.rim_indicator((edge,)) * angle
 
+    def residuals(self, values: dict[str, Any], test: Any, kinematics: Kinematics) -> list[Any]:
+        """On edges with given moments: the work of m_nu_nu on the turn of the surface about the edge, less what the
+        energies have for it. It vanishes where the averaged normal is the normal, but its derivative does not.
+
+        ``test`` is the test function of the displacement.
+        """
+        if not self._moments:
+            return []
+        gradient, m = surface_gradient(test), kinematics.area_vector
+        nu, stretched, length = self._edge_frame(kinematics)
+        moved = gradient * specialcf.tangential(3)
+        F = kinematics.deformation_gradient
+        turned = (Cof(F + gradient) - Cof(F) - Cof(gradient)) * kinematics.reference_normal  # the change of m
+        across, along = self._leaning(kinematics)
+        across_change = self._sign * InnerProduct(Cross(turned, stretched) + Cross(m, moved), self._average)
+        along_change = InnerProduct(InnerProduct(stretched, moved) / length * m + length * turned, self._average)
+        seen = (along * across_change - across * along_change) / (across**2 + along**2)
+        turn = self._sign * InnerProduct(turned, Cross(stretched, m)) / (length * InnerProduct(m, m))
+        work = values["moment"].Trace()[nu, nu] / length * (seen - turn)
+        edges = self.domain.rim_indicator(tuple(edge for edge, _ in self._moments))
+        return [self.domain.reduction.measure * edges * work * self._edges]
+
+    def _leaning(self, kinematics: Kinematics) -> tuple[Any, Any]:
+        """Sine and cosine of the angle from the averaged normal to the normal about the edge, times J_s |F t|."""
+        m, (_, stretched, length) = kinematics.area_vector, self._edge_frame(kinematics)
+        across = self._sign * InnerProduct(Cross(m, stretched), self._average)
+        return across, length * InnerProduct(m, self._average)
+
     def _edge_frame(self, kinematics: Kinematics) -> tuple[Any, Any, Any]:
         """Outward conormal nu, the deformed tangent F t and its length, on element edges."""
         t = specialcf.tangential(3)
@@ -133,10 +164,8 @@ class SurfaceBending:
         return Cross(specialcf.normal(3), t), stretched, sqrt(InnerProduct(stretched, stretched))
 
     def _edge_density(self, kinematics: Kinematics, moment: Any, rotation: Any) -> Any:
-        nu, stretched, length = self._edge_frame(kinematics)
-        m = kinematics.area_vector
-        across = self._sign * InnerProduct(Cross(m, stretched), self._average)
-        angle = atan2(across, length * InnerProduct(m, self._average))
+        nu, _, length = self._edge_frame(kinematics)
+        angle = atan2(*self._leaning(kinematics))
         N = kinematics.reference_normal
         angle_0 = atan2(InnerProduct(nu, self._reference), InnerProduct(N, self._reference))
         turn = (angle_0 - angle) / length + self._sign * InnerProduct(rotation, nu)
