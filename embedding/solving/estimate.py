@@ -23,6 +23,7 @@ from embedding.coupling.linear import LinearSolverError
 from embedding.coupling.system import System
 from embedding.geometry.domain import Domain
 from embedding.geometry.ends import unknowns_on
+from embedding.shell.bending import CurveBending
 from embedding.solving.events import StepRecord
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem, physics_of
@@ -126,6 +127,9 @@ class Enriched(Problem):
         self.system = System(self.domain, physics_of(self.scene, self.plan, self.scales, self.domain))
         for name in self.system.unknowns.names:
             self._carry(name, problem)
+        counted, present = self.system.unknowns.bending, problem.system.unknowns.bending
+        if isinstance(counted, CurveBending) and isinstance(present, CurveBending):
+            counted.continue_from(present)
         self.system.restore(self.system.save())  # the state did not get here by Newton steps
 
     def _carry(self, name: str, problem: Problem) -> None:

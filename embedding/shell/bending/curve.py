@@ -125,6 +125,10 @@ class CurveBending:
         angle.Set(self._angle(kinematics), BND, definedon=self.domain.shell)
         self._turned.vec.data = angle.vec
 
+    def continue_from(self, other: CurveBending) -> None:
+        """Count the angle on from where ``other``, of another order on the same mesh, has it."""
+        self._turned.Set(other._turned, BND, definedon=self.domain.shell)
+
     @property
     def memory(self) -> npt.NDArray[np.float64]:
         """What rotations are measured from, for a state that may be gone back to."""
