@@ -87,7 +87,7 @@ def _conductor(scene: Scene) -> bool:
 
 def _sizes(scene: Scene, reduction: str) -> tuple[MeshSizes, tuple[Decision, ...]]:
     chosen, size = scene.discretisation, scene.shell.shape.size
-    flat = scene.ambient is None and scene.shell.shape.curvature_radius is None
+    flat = reduction == "3d" and scene.ambient is None and scene.shell.shape.curvature_radius is None
     default = (FLAT_SIZE if flat else SHELL_SIZE[reduction]) * min(1.0, 2 * scene.shell.shape.narrowest / size)
     shell = chosen.shell_size / size if chosen.shell_size else default
     edges = tuple((edge, length / size) for edge, length in chosen.edge_size.items())
