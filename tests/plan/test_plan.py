@@ -116,5 +116,5 @@ def test_cross_sections_are_treated_per_length() -> None:
 def test_narrow_shapes_get_small_elements() -> None:
     ring = {"kind": "annulus", "inner_radius": 0.09, "outer_radius": 0.1}
     sizes = plan(shell={**SPHERE, "shape": ring}, discretisation={"edge_size": {"inner": "1 mm"}}).sizes
-    assert sizes.shell == pytest.approx(0.35 * 0.2)
+    assert sizes.shell == pytest.approx(0.2 * 0.2)  # a curve's default, 0.2 x size, times twice the width
     assert sizes.edges == (("inner", pytest.approx(0.01)),)
