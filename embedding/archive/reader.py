@@ -25,6 +25,7 @@ from embedding.archive.records import (
 from embedding.errors import ArchiveError
 from embedding.scene import Scales, Scene
 from embedding.solving.events import Iteration, StepRecord
+from embedding.solving.solution import CriticalPoint
 
 __all__ = [
     "Archive",
@@ -127,6 +128,15 @@ class Archive:
         """Steps that failed and were retried shorter (``step``, ``fraction``, ``reason``), known once the
         run has ended."""
         return tuple(self._end.get("cuts", ()))
+
+    @property
+    def critical_points(self) -> tuple[CriticalPoint, ...]:
+        """Limit and bifurcation points that the path went through, known once the run has ended."""
+        found = self._end.get("critical_points", ())
+        return tuple(
+            CriticalPoint(**{**point, "mode": np.array(point["mode"]), "unstable": tuple(point["unstable"])})
+            for point in found
+        )
 
     @cached_property
     def steps(self) -> tuple[StepRecord, ...]:

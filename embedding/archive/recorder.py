@@ -84,6 +84,7 @@ class Recorder(Listener):
                 "error": None if solution.error is None else asdict(solution.error),
                 "cost": asdict(solution.cost),
                 "cuts": self._cuts,
+                "critical_points": [{**vars(point), "mode": point.mode.tolist()} for point in solution.critical_points],
             }
         )
 

@@ -57,15 +57,15 @@ class ArcStage:
             raise
 
     def _follow(self, goals: Sequence[Condition]) -> Result:
+        known = len(self.session.steps)
         walk = self._launched(goals[0])
         if isinstance(walk, Result):
             return walk
-        travelled = 0
         options = self.session.scene.solver
         for goal in goals:
             walk.goal, walk.done = goal, abs(goal.gap(walk.here.values, walk.here.parameter)) == 0.0
             while not walk.done:
-                if travelled >= options.max_steps:
+                if len(self.session.steps) - known >= options.max_steps:
                     return Result.MAX_STEPS
                 if walk.here.place > options.max_arc:
                     return Result.MAX_ARC
@@ -73,7 +73,6 @@ class ArcStage:
                 if reason is not None:
                     self.path.restore(walk.here.saved)
                     return reason
-                travelled += 1
         return Result.CONVERGED
 
     def _launched(self, goal: Condition) -> Walk | Result:
@@ -84,9 +83,12 @@ class ArcStage:
             if not self.session.at_rest:
                 return walk
             patient, walk.stride = walk.stride, replace(walk.stride, smallest=IMPATIENT)
-            if self._step(walk) is None:
-                walk.stride = patient
+            reason = self._step(walk)
+            walk.stride = patient
+            if reason is None:
                 return walk
+            if reason is Result.COMPRESSIVE_MEMBRANE:
+                return reason
         self.path.restore(saved)
         return self._out_of_rest(goal)
 

@@ -99,7 +99,7 @@ def region_in_compression(problem: Problem, state: State) -> str:
         return ""
     low, high, centre = (_place(f(places, axis=0)) for f in (np.min, np.max, np.mean))
     kind = " (axisymmetric: x is the radius)" if problem.reduction.name == "axisymmetric" else ""
-    return f"{100 * share:.2g} % of the area around {centre} m, from {low} to {high} m{kind}"
+    return f"{100 * share:.3g} % of the area around {centre} m, from {low} to {high} m{kind}"
 
 
 def _place(point: Any) -> str:

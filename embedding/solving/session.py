@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
 from typing import Any
@@ -16,6 +17,7 @@ from embedding.solving.path import Target
 from embedding.solving.problem import Problem
 from embedding.solving.result import Result
 from embedding.solving.solution import CriticalPoint
+from embedding.solving.stability import countable
 from embedding.solving.state import State
 
 REST = 1e-6
@@ -69,8 +71,8 @@ class Session:
         if compressed(self.problem, scalars):
             self.detail = region_in_compression(self.problem, self.state)
             return Result.COMPRESSIVE_MEMBRANE
-        if unstable is not None:
-            scalars["unstable_modes"] = float(unstable)
+        if countable(self.problem.system):
+            scalars["unstable_modes"] = math.nan if unstable is None else float(unstable)
         record = StepRecord(
             len(self.steps) + 1, stage, target.mechanical, target.field, tuple(iterations), scalars,
             time.perf_counter() - started,

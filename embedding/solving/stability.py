@@ -8,6 +8,8 @@ number of unstable modes among the motions they allow (Haynsworth, Linear Algebr
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import qdldl
 import scipy.sparse as sparse
@@ -19,13 +21,22 @@ SHIFT = 1e-13
 """Stiffness of free rigid motions, whose pivots would otherwise be rounding, relative to the largest one."""
 
 
+SMALL = 1000
+"""Rows of a matrix whose eigenvalues may be computed."""
+
+
+def countable(system: System) -> bool:
+    """Is stability a matter of energy (loads with a potential), and that of the shell alone (no field, whose energy has
+    the other sign)?"""
+    return system.symmetric and system.physics.field is None
+
+
 def unstable_modes(system: System) -> int | None:
     """Number of unstable modes at the last linearisation of ``system``.
 
-    None where stability is not a matter of energy (loads without a potential), with a field, whose energy has no
-    definite sign, and where a pivot cannot be told from rounding.
+    None where it cannot be counted, or a pivot cannot be told from rounding.
     """
-    if not system.symmetric or system.physics.field is not None:
+    if not countable(system):
         return None
     matrix, multipliers = system.tangent()
     shift = SHIFT if system.unknowns.rigid else 0.0
@@ -37,23 +48,29 @@ def negative_eigenvalues(
 ) -> int | None:
     """Negative eigenvalues of the symmetric ``matrix`` (n, n), ``less`` of which are not counted.
 
-    Rows in ``border``, few and dense, are eliminated last. None if a pivot vanishes.
+    Rows in ``border``, few and dense, are eliminated last. A pivot that vanishes is no eigenvalue that does: then those
+    of a small matrix are computed, and for a large one the answer is None.
     """
     inner, outer = np.flatnonzero(~border), np.flatnonzero(border)
-    core = matrix[inner][:, inner]
+    core = sparse.csc_array(matrix[inner][:, inner])
     if shift:
         core = core + shift * float(np.abs(core.diagonal()).max(initial=0.0)) * sparse.eye_array(len(inner))
-    try:
-        factors = qdldl.Solver(sparse.csc_matrix(sparse.triu(core)), upper=True)
-    except RuntimeError:
-        return None
-    pivots = np.asarray(factors.factors()[1])
-    if not np.all(np.isfinite(pivots)):
-        return None
-    count = int((pivots < 0).sum())
+    factors = _factors(core)
+    if factors is None:
+        return int((np.linalg.eigvalsh(matrix.toarray()) < 0).sum()) - less if matrix.shape[0] <= SMALL else None
+    count = int((np.asarray(factors.factors()[1]) < 0).sum())
     if len(outer):
         sides = matrix[inner][:, outer].toarray()
         solved = np.column_stack([factors.solve(side) for side in sides.T])
         rest = matrix[outer][:, outer].toarray() - sides.T @ solved
         count += int((np.linalg.eigvalsh((rest + rest.T) / 2) < 0).sum())
     return count - less
+
+
+def _factors(core: sparse.csc_array) -> Any:
+    """The factors L D L^T of ``core``, or None."""
+    try:
+        factors = qdldl.Solver(sparse.csc_matrix(sparse.triu(core)), upper=True)
+    except RuntimeError:
+        return None
+    return factors if np.all(np.isfinite(factors.factors()[1])) else None

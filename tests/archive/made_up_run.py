@@ -222,6 +222,7 @@ def solution(steps: Sequence[StepRecord], result: str = "CONVERGED") -> Any:
         steps=tuple(steps),
         error=Estimate(),
         cost=Cost(),
+        critical_points=(),
         archive=None,
     )
 
