@@ -7,7 +7,7 @@ from embedding.scene.loads import EdgeMoment, EdgeTraction, LineLoad, Loads, Poi
 from embedding.scene.materials import Gent, Material, MooneyRivlin, NeoHookean, Ogden, StVenantKirchhoff, Yeoh
 from embedding.scene.options import Discretisation, Model, Solver
 from embedding.scene.output import Output
-from embedding.scene.path import Stage
+from embedding.scene.path import Branch, Stage, Until
 from embedding.scene.scales import EPSILON_0, MU_0, Scales
 from embedding.scene.scene import Scene
 from embedding.scene.shapes import (
@@ -41,6 +41,7 @@ __all__ = [
     "Ambient",
     "Annulus",
     "Arch",
+    "Branch",
     "Cap",
     "Cone",
     "Cylinder",
@@ -85,6 +86,7 @@ __all__ = [
     "TSection",
     "ThicknessField",
     "Torus",
+    "Until",
     "Yeoh",
     "axisymmetry_problems",
     "load_scene",

@@ -1,12 +1,13 @@
-"""Solving a scene: load and volume control, Newton's method, typed results, listeners."""
+"""Solving a scene: paths by arc length, load, volume or displacement, critical points, typed results, listeners."""
 
 from embedding.solving.driver import run
 from embedding.solving.events import Field, Iteration, Listener, StepRecord
 from embedding.solving.result import Result
-from embedding.solving.solution import Cost, ErrorEstimate, Solution
+from embedding.solving.solution import Cost, CriticalPoint, ErrorEstimate, Solution
 
 __all__ = [
     "Cost",
+    "CriticalPoint",
     "ErrorEstimate",
     "Field",
     "Iteration",
