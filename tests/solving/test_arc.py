@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from embedding import Result, Scene, Solution, open_archive, solve
+from embedding import Result, Scene, SceneError, Solution, open_archive, solve
 from embedding.scene.path import Until
 from embedding.solving import run
 from embedding.solving.driver import Run
@@ -154,6 +154,27 @@ def test_a_pull_in_is_passed() -> None:
     (limit,) = solution.critical_points
     assert limit.kind == "limit" and limit.unstable == (None, None)
     assert limit.scalars["stretch"] == pytest.approx(1.24062, abs=5e-3)  # membrane; of second order in T/R = 0.05
+
+
+def test_an_end_in_displacement_is_where_the_shell_is() -> None:
+    stage = {"until": {"where": [0.0, 0.0, 2 * R], "axis": "z", "value": R}}
+    with pytest.raises(SceneError, match="away from the mid-surface"):
+        followed(path=[stage])
+
+
+def test_given_displacements_are_followed() -> None:
+    """A sheet pulled to twice its length between sides that may narrow: no other unknown load than the sides' own."""
+    sheet = {**SPHERE, "shape": {"kind": "plate", "length": R, "width": R}}
+    supports = [
+        {"where": "x0", "fix": ["x"]},
+        {"where": "y0", "fix": ["y"]},
+        {"where": "surface", "fix": ["z"]},
+        {"where": "x1", "fix": ["x"], "displacement": [R, 0.0, 0.0]},
+    ]
+    solution = followed(shell=sheet, supports=supports, loads={}, discretisation={})
+    assert solution.result is Result.CONVERGED, solution.message
+    assert solution["stretch_max"][-1] == pytest.approx(2.0, rel=1e-9)
+    assert solution["stretch_min"][-1] == pytest.approx(2**-0.5, rel=1e-9)  # uniaxial, incompressible
 
 
 def test_critical_points_are_archived(tmp_path: Path) -> None:

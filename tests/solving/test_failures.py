@@ -40,6 +40,7 @@ def test_pull_in() -> None:
 def test_compression() -> None:
     solution = ended(loads={"pressure_top": 8e3})
     assert solution.result is Result.COMPRESSIVE_MEMBRANE
+    assert "100 % of the area" in solution.message and 'model.theory = "bending"' in solution.message
     assert all(solution["min_principal_stress"] > -1e-3 * 1e5)
 
 

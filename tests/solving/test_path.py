@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 
-from embedding import Stage
-from embedding.solving.path import Stepper, Target, stage_target
+from embedding import SceneError, Stage
+from embedding.solving.path import Stepper, Target, followed, planned_steps, stage_target
 
 
 def walk(stepper: Stepper, solvable: Callable[[float, float], bool], most: int = 10_000) -> tuple[list[float], bool]:
@@ -90,3 +91,44 @@ def test_a_stage_names_its_end() -> None:
 def test_a_target_reports_what_it_controls() -> None:
     assert Target(0.5, 1.0, None).report() == {"mechanical": 0.5, "field": 1.0}
     assert Target(0.5, 1.0, 2.0).report() == {"mechanical": 0.5, "field": 1.0, "volume_ratio": 2.0}
+
+
+@pytest.mark.parametrize(
+    ("stage", "with_field", "expected"),
+    [
+        ({}, False, None),
+        ({}, True, 10),  # the field is ramped with the loads
+        ({"steps": 7}, False, 7),
+        ({"steps": 7, "control": "arc-length"}, True, None),
+        ({"control": "load"}, False, 10),
+        ({"volume_ratio": 2.0}, False, 10),
+        ({"volume_ratio": 2.0, "control": "arc-length"}, False, None),
+        ({"until": {"where": [0, 0, 1], "axis": "z", "value": 1}}, True, None),
+        ({"steps": 3, "branch": {}}, False, None),
+    ],
+)
+def test_which_stages_are_followed(stage: dict[str, Any], with_field: bool, expected: int | None) -> None:
+    assert planned_steps(Stage(**stage), with_field=with_field) == expected
+
+
+def test_a_load_that_is_held_needs_no_path() -> None:
+    here = Target(1.0, 0.0, None)
+    assert not followed(Stage(), here, Target(1.0, 0.0, None), with_field=False)
+    assert followed(Stage(field=0.0), Target(0.0, 0.0, None), here, with_field=True)
+
+
+@pytest.mark.parametrize(
+    ("stage", "words"),
+    [
+        ({"control": "volume"}, "needs volume_ratio"),
+        ({"control": "load", "volume_ratio": 2.0}, "the volume is what is controlled"),
+        ({"control": "displacement"}, "needs until"),
+        ({"volume_ratio": 2.0, "until": {"where": [0, 0, 1], "axis": "z", "value": 1}}, "a stage ends at"),
+        ({"control": "load", "branch": {}}, 'use control = "arc-length"'),
+        ({"branch": {"amplitude": 0.0}}, "must not be 0"),
+        ({"branch": {"amplitude": 0.6}}, "at most 0.5"),
+    ],
+)
+def test_what_does_not_fit_together(stage: dict[str, Any], words: str) -> None:
+    with pytest.raises(SceneError, match=words):
+        Stage(**stage)
