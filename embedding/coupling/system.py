@@ -47,6 +47,7 @@ class System:
         self._held: tuple[str, ...] = ()
         self._solver = self._direct_solver(())
         self._measured = self._linearised = self._displacement
+        self.residual()  # NGSolve differentiates an interpolation wrongly until it has been evaluated once
 
     def place_faces(self) -> None:
         """Put the opened faces where the present displacement of the mid-surface has them."""
