@@ -23,8 +23,9 @@ from embedding.solving.continuation import (
 from embedding.solving.curve import Curve, Point
 from embedding.solving.result import Result
 
-AIM, EASE = 5.0, 1.5
-"""Iterations the step length aims at, and by what factor it changes for each one more or less."""
+AIM, EASE, NEAR = 5.0, 1.5, 1e-4
+"""Iterations the step length aims at, and by what factor it changes for each one more or less; updates of less than
+this part of the step are no sign of a hard one, and do not count."""
 MISSED = 0.1
 """Largest error of a prediction, relative to the step, that lets the step grow."""
 FASTEST, SLOWEST = 2.5, 0.4
@@ -157,7 +158,8 @@ class Walk:
             return None
         self._blind = False
         error = Direction(point.values - guess.values, point.parameter - guess.parameter)
-        growth = _growth(correction, self.metric.length(error) / self.length, curve.order)
+        hard = sum(size > NEAR * self.length for size in correction.sizes) + 1
+        growth = _growth(hard, self.metric.length(error) / self.length, curve.order)
         self._accept(point)
         self._lengthen(growth)
         return None
@@ -218,9 +220,9 @@ class Walk:
             self.length = self.stride.largest / rate
 
 
-def _growth(correction: Correction, error: float, order: int) -> float:
+def _growth(iterations: int, error: float, order: int) -> float:
     """The next step as a multiple of the last one, whose prediction had a relative ``error``."""
-    growth = math.pow(EASE, AIM - len(correction.sizes))
+    growth = math.pow(EASE, AIM - iterations)
     if error > 0.0:
         growth = min(growth, (MISSED / error) ** (1.0 / order))
     return min(max(growth, SLOWEST), FASTEST)
