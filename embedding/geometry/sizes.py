@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+AT_POINTS = 16
+"""The moment under a force grows with the logarithm of the distance: no order of the elements helps, only their
+size."""
+
 
 @dataclass(frozen=True)
 class MeshSizes:
     """Dimensionless mesh request: sizes on the shell and far away, the ambient's radius (0: no ambient), grading.
 
     ``edges`` holds smaller sizes along named edges of the shell, from which elements grow as ``grading`` allows.
+    Around ``points`` of a surface, where a force acts on a shell that bends, elements are ``AT_POINTS`` times smaller.
     """
 
     shell: float
@@ -18,6 +23,7 @@ class MeshSizes:
     grading: float
     order: int
     edges: tuple[tuple[str, float], ...] = ()
+    points: tuple[tuple[float, ...], ...] = ()
 
     @property
     def potential_order(self) -> int:

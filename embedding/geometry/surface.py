@@ -10,14 +10,14 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from netgen.meshing import MeshingStep
+from netgen.meshing import MeshingParameters, MeshingStep
 from netgen.occ import ArcOfCircle, Axes, Box, Edge, Face, OCCGeometry, Pnt, Segment, Wire, WorkPlane
 from netgen.occ import Ellipsoid as EllipsoidSolid
 from netgen.occ import Sphere as SphereSolid
 from ngsolve import Mesh
 
 from embedding.geometry.reduction import Reduction
-from embedding.geometry.sizes import MeshSizes
+from embedding.geometry.sizes import AT_POINTS, MeshSizes
 
 CLOSE = 1e-6
 SEAM = "seam"
@@ -129,10 +129,10 @@ def surface_mesh(shape: Any, name: Names, sizes: MeshSizes) -> Mesh:
         edge.name = name(edge) or edge.name
         if edge.name:
             edge.maxh = sizes.along(edge.name)
-    made = OCCGeometry(shape).GenerateMesh(
-        maxh=sizes.shell, grading=sizes.grading, perfstepsend=MeshingStep.MESHSURFACE
-    )
-    return Mesh(made)
+    wanted = MeshingParameters(maxh=sizes.shell, grading=sizes.grading, perfstepsend=MeshingStep.MESHSURFACE)
+    for point in sizes.points:
+        wanted.RestrictH(*point, h=sizes.shell / AT_POINTS)
+    return Mesh(OCCGeometry(shape).GenerateMesh(mp=wanted))
 
 
 def curve_mesh(edges: list[Edge], name: Callable[[Pnt], str], sizes: MeshSizes) -> Mesh:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from embedding.geometry.domain import MeshSizes
 from embedding.geometry.reduction import Reduction
+from embedding.geometry.sizes import AT_POINTS
 from embedding.plan.decisions import Decision, Plan
 from embedding.plan.symmetry import choose_reduction, odd_planes
 from embedding.plan.theory import choose_locking, choose_theory
@@ -24,12 +27,30 @@ def explain(scene: Scene) -> Plan:
     odd = odd_planes(scene, reduction)
     opened, faces = _interface(scene)
     sizes, mesh = _sizes(scene, reduction.name)
-    rest = (_loads(scene), *_rigid(scene, reduction), *_field(scene), *faces, *mesh, _order(scene))
     theory = choose_theory(scene)
     bending = theory.choice == "bending"
+    points = _loaded_points(scene, reduction) if bending else ()
+    if points:
+        sizes = replace(sizes, points=points)
+        reason = "the moment under a force grows with the logarithm of the distance"
+        mesh = (*mesh, Decision("mesh at point loads", f"{sizes.shell / AT_POINTS:.3g} x size", reason))
+    rest = (_loads(scene), *_rigid(scene, reduction), *_field(scene), *faces, *mesh, _order(scene))
     locking = choose_locking(scene) if bending else None
     decisions = (first, theory, *([locking] if locking else []), *rest)
     return Plan(reduction, sizes, opened, odd, decisions, bending, locking is not None and locking.choice == "cured")
+
+
+def _loaded_points(scene: Scene, reduction: Reduction) -> tuple[tuple[float, ...], ...]:
+    """Where point loads act on the meshed part of a surface, in shell sizes."""
+    if reduction.dimension == 2:
+        return ()
+    size = scene.shell.shape.size
+    mirrored = [axis in reduction.planes for axis in "xyz"]
+    images = (
+        tuple(abs(x) / size if folded else x / size for x, folded in zip(load.at, mirrored, strict=True))
+        for load in scene.loads.point_loads
+    )
+    return tuple(dict.fromkeys(images))
 
 
 def _loads(scene: Scene) -> Decision:
