@@ -8,14 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
-from embedding.cli.output import console, cost_line, error_line, number, print_rows, without_noise, words
+from embedding.cli.output import console, cost_line, critical_rows, error_line, number, print_rows, without_noise, words
 
 if TYPE_CHECKING:
     from embedding.archive import Archive
 
 #: Scalars worth a column for people, in this order; the later ones are left out where they are zero or unknown.
-COLUMNS = ("stretch", "pressure_top", "pressure_bottom", "pressure_difference")
-FURTHER = ("volume_ratio", "voltage", "charge")
+COLUMNS = ("stretch",)
+FURTHER = (
+    "displacement", "pressure_top", "pressure_bottom", "pressure_difference", "volume_ratio", "voltage", "charge",
+    "unstable_modes",
+)  # fmt: skip
 ROWS = 20
 
 
@@ -25,6 +28,7 @@ def archive_summary(archive: Archive) -> dict[str, Any]:
         "archive": archive.path,
         **archive.run,
         "result": asdict(archive.result),
+        "critical_points": [{**vars(point), "mode": None} for point in archive.critical_points],
         "estimated_error": None if archive.error is None else asdict(archive.error),
         "cost": None if archive.cost is None else asdict(archive.cost),
         "steps": [asdict(step) for step in archive.steps],
@@ -46,6 +50,7 @@ def print_archive(archive: Archive) -> None:
         rows.append(("estimated error", error_line(archive.error)))
     if archive.cost is not None:
         rows.append(("cost", cost_line(archive.cost)))
+    rows += critical_rows(archive.critical_points)
     if archive.cuts:
         rows.append(("cuts", f"{len(archive.cuts)} steps were retried shorter"))
     rows += [(f"block {name}", ", ".join(archive.block(name).fields)) for name in archive.blocks]

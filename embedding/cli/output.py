@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from embedding.archive.records import ArchivedCost, ArchivedError
-    from embedding.solving.solution import Cost, ErrorEstimate, Solution
+    from embedding.solving.solution import Cost, CriticalPoint, ErrorEstimate, Solution
 
 NOISE = 1e-12
 
@@ -73,6 +73,17 @@ def cost_line(cost: Cost | ArchivedCost) -> str:
     return f"{seconds(cost.wall_seconds)}, {cost.peak_memory_bytes / 1e6:.0f} MB, {unknowns} unknowns"
 
 
+def critical_rows(points: Sequence[CriticalPoint]) -> list[tuple[str, str]]:
+    """Where the path turns or branches, a row each."""
+    rows = []
+    for point in points:
+        stability = " to ".join("unknown" if n is None else str(n) for n in point.unstable)
+        load = f"mechanical {point.factor_mechanical:.6g}, field {point.factor_field:.6g}"
+        place = f"before step {point.before_step}; unstable modes {stability}"
+        rows.append((f"{point.kind} point", f"{load} (stage {point.stage}, {place})"))
+    return rows
+
+
 def solution_summary(solution: Solution) -> dict[str, Any]:
     """A solution as plain data: result, final scalars, error estimate and cost."""
     last = solution.steps[-1] if solution.steps else None
@@ -82,6 +93,7 @@ def solution_summary(solution: Solution) -> dict[str, Any]:
         "message": solution.message,
         "steps": len(solution.steps),
         "scalars": last.scalars if last else {},
+        "critical_points": [{**vars(point), "mode": None} for point in solution.critical_points],
         "estimated_error": None if solution.error is None else asdict(solution.error),
         "cost": asdict(solution.cost),
         "archive": solution.archive,
@@ -97,6 +109,7 @@ def print_solution(solution: Solution, picture: Path | None) -> None:
     scalars = solution.steps[-1].scalars if solution.steps else {}
     units = {name: scalar_unit(name, per_length) for name in scalars}
     rows = [(name, number(value, units[name])) for name, value in without_noise(scalars, units).items()]
+    rows += critical_rows(solution.critical_points)
     if solution.error is not None:
         rows.append(("estimated error", error_line(solution.error)))
     rows.append(("cost", cost_line(solution.cost)))

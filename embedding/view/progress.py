@@ -82,6 +82,9 @@ class ProgressDisplay(Listener):
     def accepted(self, state: State, record: StepRecord) -> None:
         """A step is done."""
         self.accepted_steps, self.last, self.note = self.accepted_steps + 1, record, ""
+        # On a path the load is an unknown: what the last iteration aimed at is not where the step ended.
+        ended = {"mechanical": record.factor_mechanical, "field": record.factor_field}
+        self.target |= {name: value for name, value in ended.items() if name in self.target}
         self._line(
             f"step {self._of(record.number)} ({record.stage}): {self._load()}, "
             f"{len(record.iterations)} iterations{self._stretch(record)}, {self._elapsed()}"

@@ -8,7 +8,10 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
+
 from embedding.solving.events import Iteration, StepRecord
+from embedding.solving.solution import CriticalPoint
 
 
 @dataclass(frozen=True)
@@ -43,6 +46,9 @@ def record(number: int, of: int) -> StepRecord:
     return StepRecord(number, "inflate", number / of, 1.0, (iteration(1), iteration(2)), scalars, 0.1)
 
 
+CRITICAL = CriticalPoint("limit", "inflate", 2, 0.74, 1.0, {"stretch": 1.38}, np.zeros(3), (0, 1))
+
+
 def solution(scene: Any, archive: Path | None, steps: Sequence[StepRecord], result: str = "CONVERGED") -> Any:
     """Something with the face of a Solution."""
     return SimpleNamespace(
@@ -50,6 +56,7 @@ def solution(scene: Any, archive: Path | None, steps: Sequence[StepRecord], resu
         result=SimpleNamespace(name=result, advice="take smaller steps"),
         message="the whole path is solved",
         steps=tuple(steps),
+        critical_points=(CRITICAL,),
         error=Estimate(value=2e-4, quantity="stretch", method="one order lower", parts={"discretisation": 2e-4}),
         cost=Cost(
             wall_seconds=75.0,
