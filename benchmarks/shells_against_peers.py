@@ -121,6 +121,7 @@ def draw(case: Case, lines: list[dict[str, Any]], path: Path) -> None:
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+    from matplotlib.ticker import NullFormatter
 
     good = [line for line in lines if "error" in line]
     series = list(dict.fromkeys(line["series"] for line in good))
@@ -135,9 +136,12 @@ def draw(case: Case, lines: list[dict[str, Any]], path: Path) -> None:
             points = sorted((line[column], line["error"]) for line in good if line["series"] == one)
             peer = not one.startswith("embedding")
             style = {"linestyle": "--" if peer else "-", "markerfacecolor": "white" if peer else None}
+            if not peer and "order" not in one:  # several orders: no curve
+                style["linestyle"] = "none"
             axes.loglog(*zip(*points, strict=True), marker="os^Dv"[number % 5], color=f"C{number}", label=one, **style)
         axes.set_xlabel(name)
         axes.grid(True, which="major", alpha=0.3)
+        axes.xaxis.set_minor_formatter(NullFormatter())
     panels[0].set_ylabel("relative error")
     figure.suptitle(case.title)
     handles, labels = panels[0].get_legend_handles_labels()
