@@ -138,22 +138,26 @@ class Lagrangian:
 
     # -- the forms
 
-    def joint_form(self) -> BilinearForm:
-        """The form of all unknowns together; w and the load factors are parameters."""
+    def joint_form(self, *, elastic: bool = True, proximal: bool = True) -> BilinearForm:
+        """The form of all unknowns together; w and the load factors are parameters.
+
+        Without what is ``elastic``, the energies of membrane and bending are left to others, and nothing is condensed;
+        without ``proximal``, the proximal stiffness is left out.
+        """
         trial = self.unknowns.trial
         residuals = self._residuals()
-        condense = self.unknowns.condensed is not None
+        condense = self.unknowns.condensed is not None and elastic
         form = BilinearForm(self.unknowns.space, symmetric=not residuals, condense=condense)
-        for term in self._shell_energies(trial):
+        for term in self._shell_energies(trial, elastic=elastic):
             form += Variation(term).Compile()
         if self.physics.field is not None:
             for term in self.field_energies(trial):
                 form += Variation(-1 * term).Compile()
-        for term in [self._proximal(), *self._openings(), *residuals]:
+        for term in [*([self._proximal()] * proximal), *self._openings(), *residuals]:
             form += term.Compile()
         return form
 
-    def _shell_energies(self, values: dict[str, Any]) -> list[Any]:
+    def _shell_energies(self, values: dict[str, Any], *, elastic: bool = True) -> list[Any]:
         physics, measure = self.physics, self.measure
         kinematics = self.kinematics(values)
         u = _trace(values["u"])
@@ -166,7 +170,7 @@ class Lagrangian:
             shell = shell + measure * InnerProduct(_trace(values[f"tau_{face}"]), offset)
         if self.membrane is None or self.unknowns.opened:
             terms.append(shell * surface)
-        if self.membrane is not None and self.unknowns.bending is not None:
+        if self.membrane is not None and self.unknowns.bending is not None and elastic:
             state = self.kinematics({name: self.unknowns.field(name) for name in self.unknowns.names})
             terms.append(measure * self.membrane.energy(kinematics, state) * self.membrane.integral)
             terms += self.unknowns.bending.energies(values, kinematics, self.factors.mechanical)

@@ -11,6 +11,7 @@ import scipy.sparse as sparse
 from ngsolve import BND, BilinearForm, FESpace, GridFunction, InnerProduct, Variation
 
 from embedding.ambient.motion import SideMotion
+from embedding.coupling.elementwise import form_of
 from embedding.coupling.lagrangian import OFFSET, Factors, Lagrangian
 from embedding.coupling.linear import DirectSolver
 from embedding.coupling.physics import Physics
@@ -36,7 +37,7 @@ class System:
             SIDES[face]: SideMotion(domain, SIDES[face], space) for face, space in self.unknowns.face_spaces.items()
         }
         self.lagrangian = Lagrangian(domain, physics, self.unknowns, self.motions, self.factors)
-        self.form = self.lagrangian.joint_form()
+        self.form = form_of(self.lagrangian)
         self.potential = PotentialSolve(self.lagrangian) if physics.field is not None else None
         self.tractions = {face: FaceTractions(self.lagrangian, face) for face in self.unknowns.faces}
         if "axial" in self.unknowns:

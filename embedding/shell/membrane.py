@@ -66,9 +66,9 @@ class Membrane:
         element = ET.SEGM if curve else ET.TRIG
         self.integral = ds("shell", intrules={element: IntegrationRule(element, 2 * order - (curve and cured))})
         self._regge = None
+        self._grown: Any = None
         if cured and not curve:
             self._regge = HCurlCurl(domain.mesh, order=order - 1, discontinuous=True, definedon=domain.shell)
-            self._grown = GridFunction(self._regge)
 
     def energy(self, kinematics: Kinematics, state: Kinematics) -> Any:
         """T Psi per reference area, with the extrapolated stress; ``state`` are the kinematics of the present state."""
@@ -85,7 +85,9 @@ class Membrane:
         else:
             youngs, poisson = 3 * self._modulus(state), 0.5
         slope = surface_gradient(self.update)
-        grown = self._grown if self._regge is not None else slope.trans * slope
+        grown = slope.trans * slope
+        if self._regge is not None:
+            grown = self._grown = self._grown or GridFunction(self._regge)
         strain, trace = seen.strain, Trace(seen.strain)
         work = (1 - poisson) * InnerProduct(grown, strain) + poisson * Trace(grown) * trace
         if self.domain.mesh.dim == 2:
@@ -109,6 +111,6 @@ class Membrane:
 
     def _remember(self, update: Array) -> None:
         self.update.vec.FV().NumPy()[:] = update
-        if self._regge is not None:
+        if self._grown is not None:
             slope = surface_gradient(self.update)
             self._grown.Set(slope.trans * slope, dual=True, definedon=self.domain.shell)

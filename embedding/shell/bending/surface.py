@@ -58,7 +58,7 @@ class SurfaceBending:
     """Spaces and energy of bending on the triangles of ``domain``'s shell.
 
     ``held`` names the edges whose rotation is held; edges on mirror planes hold it by themselves. ``moments`` are given
-    on edges, per reference length.
+    on edges, per reference length. ``reference`` is the averaged normal of the reference, ``degree`` that of the rules.
     """
 
     condensed = "moment"
@@ -75,15 +75,14 @@ class SurfaceBending:
         planes = [i for i, name in enumerate("xyz") if name in domain.reduction.planes]
         self._mirrored += [(i, facets_on_plane(domain.facets, i)) for i in planes]
         frame = VectorFacetSurface(mesh, order=order, definedon=domain.shell)
-        self._reference, self._average = GridFunction(frame), GridFunction(frame)
+        self.reference, self._average = GridFunction(frame), GridFunction(frame)
         self._sign = domain.sign
-        self._average_of(domain.normal, self._reference)
-        self._average.vec.data = self._reference.vec
-        points = 2 * order + 1
-        self._surface = ds("shell", intrules={ET.TRIG: IntegrationRule(ET.TRIG, points)})
-        self._edges = ds(
-            definedon=domain.shell, element_boundary=True, intrules={ET.SEGM: IntegrationRule(ET.SEGM, points)}
-        )
+        self._average_of(domain.normal, self.reference)
+        self._average.vec.data = self.reference.vec
+        self.degree = 2 * order + 1
+        rules = {element: IntegrationRule(element, self.degree) for element in (ET.TRIG, ET.SEGM)}
+        self._surface = ds("shell", intrules=rules)
+        self._edges = ds(definedon=domain.shell, element_boundary=True, intrules=rules)
 
     def _square_axes(self, edges: Any) -> Any:
         """For each edge the coordinate axis square to it and most nearly square to the normal, -1 without one.
@@ -167,9 +166,15 @@ class SurfaceBending:
         nu, _, length = self._edge_frame(kinematics)
         angle = atan2(*self._leaning(kinematics))
         N = kinematics.reference_normal
-        angle_0 = atan2(InnerProduct(nu, self._reference), InnerProduct(N, self._reference))
+        angle_0 = atan2(InnerProduct(nu, self.reference), InnerProduct(N, self.reference))
         turn = (angle_0 - angle) / length + self._sign * InnerProduct(rotation, nu)
         return turn * moment[nu, nu]
+
+    def rotation_work(self, moment: Any, rotation: Any) -> Any:
+        """The term of the energy that is bilinear in ``moment`` and ``rotation``, as an integral."""
+        nu = Cross(specialcf.normal(3), specialcf.tangential(3))
+        across = self._sign * InnerProduct(rotation, nu) * moment[nu, nu]
+        return self.domain.reduction.measure * across * self._edges
 
     def stored(self, values: dict[str, Any], kinematics: Kinematics) -> Any:
         """Bending energy per reference area of converged moments, as a coefficient function: W_b = W_b* there."""
@@ -191,9 +196,9 @@ class SurfaceBending:
     def _average_of(self, normal: Any, target: GridFunction) -> None:
         target.Set(normal, dual=True, definedon=self.domain.shell)
         values = target.vec.FV().NumPy()
-        if target is not self._reference:
+        if target is not self.reference:
             fixed = unknowns_on(target.space, self._fixed, range(3))
-            values[fixed] = self._reference.vec.FV().NumPy()[fixed]
+            values[fixed] = self.reference.vec.FV().NumPy()[fixed]
         for component, edges in self._mirrored:
             values[unknowns_on(target.space, edges, (component,))] = 0.0
 
