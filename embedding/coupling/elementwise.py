@@ -43,7 +43,7 @@ class ElementwiseForm:
     def __init__(self, lagrangian: Lagrangian, bending: SurfaceBending, membrane: Membrane) -> None:
         unknowns, physics = lagrangian.unknowns, lagrangian.physics
         self._count, self._update, self._range = unknowns.space.ndof, membrane.update, unknowns.range("u")
-        self._shell = ShellElements(
+        self.shell = ShellElements(
             lagrangian.domain,
             physics.law,
             physics.thickness,
@@ -53,10 +53,10 @@ class ElementwiseForm:
         )
         self._proximal = lagrangian.factors.proximal
         self._free, self._tied = (lagrangian.joint_form(elastic=False, proximal=tied) for tied in (False, True))
-        self._store = _Store(self._free, self._shell, unknowns.condensed, unknowns.state.vec)
-        self.harmonic_extension_trans = _Operator(self._count, self._shell.load)
-        self.harmonic_extension = _Operator(self._count, self._shell.follow)
-        self.inner_solve = _Operator(self._count, self._shell.own)
+        self._store = _Store(self._free, self.shell, unknowns.condensed, unknowns.state.vec)
+        self.harmonic_extension_trans = _Operator(self._count, self.shell.load)
+        self.harmonic_extension = _Operator(self._count, self.shell.follow)
+        self.inner_solve = _Operator(self._count, self.shell.own)
 
     @property
     def mat(self) -> Any:
@@ -72,7 +72,7 @@ class ElementwiseForm:
         """Write the residual at ``vector`` to ``out``."""
         self._rest.Apply(vector, out)
         with np.errstate(all="ignore"):  # a state that is not a number is found out by the norm of the residual
-            self._shell.residual(vector.FV().NumPy(), out.FV().NumPy())
+            self.shell.residual(vector.FV().NumPy(), out.FV().NumPy())
 
     def AssembleLinearization(self, vector: Any) -> None:
         """Linearise at ``vector``.
@@ -85,7 +85,7 @@ class ElementwiseForm:
         update[self._range] = self._update.vec.FV().NumPy()
         try:
             with np.errstate(all="ignore"):
-                self._store.fill(self._rest, self._shell.condensed(np.array(vector.FV().NumPy()), update))
+                self._store.fill(self._rest, self.shell.condensed(np.array(vector.FV().NumPy()), update))
         except np.linalg.LinAlgError as error:
             raise LinearSolverError(f"the moments of an element could not be eliminated ({error})") from error
 
