@@ -1,0 +1,82 @@
+"""The published nonlinear shells on three meshes each: the table of docs/benchmarks.md and its picture.
+
+`python -m benchmarks.shells` prints the table; `python -m benchmarks.shells docs` writes the page's table and picture.
+Every scene runs with default settings, `discretisation.shell_size` apart.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+
+from problems import half_cylinder, hemisphere_with_hole, pulled_cylinder, slit_annulus, t_cantilever
+from problems.common import LoadPath
+
+PROBLEMS: tuple[ModuleType, ...] = (
+    hemisphere_with_hole, slit_annulus, pulled_cylinder, half_cylinder, t_cantilever,
+)  # fmt: skip
+REFINED = 1.0 / math.sqrt(2.0)
+"""Of the element size from one mesh to the next: twice the triangles."""
+DOCS = Path(__file__).parent.parent / "docs"
+
+
+def runs(problem: ModuleType) -> list[LoadPath]:
+    """The scene's own mesh and two finer ones."""
+    first: LoadPath = problem.run()
+    size = first.solution.plan.sizes.shell * first.solution.scales.length
+    finer = [problem.run(f"discretisation.shell_size={size * REFINED**n!r} m") for n in (1, 2)]
+    return [first, *finer]
+
+
+def rows(problem: ModuleType, paths: list[LoadPath]) -> Iterator[str]:
+    """Markdown rows, one a quantity."""
+    case = problem.CASE
+    for name in paths[0].values:
+        ends = [path.end(name) for path in paths]
+        found = " | ".join(f"{end:.4f} ({100 * (end / case.end(name) - 1):+.2f} %)" for end in ends)
+        others = ", ".join(f"{values[name]:g}" for values in case.others.values() if name in values)
+        steps = ", ".join(str(path.solution.iterations) for path in paths)
+        yield f"| {case.name}: {name} | {case.end(name):g} | {others} | {found} | {steps} |"
+
+
+def draw(found: dict[str, list[LoadPath]], output: Path) -> None:
+    """Load against displacement, computed and published."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(11.0, 7.0), dpi=130, layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.subplots(2, 3).ravel()
+    for axis, problem in zip(axes, PROBLEMS, strict=False):
+        path, case = found[problem.CASE.name][-1], problem.CASE
+        for number, name in enumerate(path.values):
+            colour = ("#2f6690", "#c8553d", "#6d9a8b")[number]
+            axis.plot([0.0, *path.values[name]], [0.0, *path.factors], "-o", color=colour, markersize=3, label=name)
+            axis.plot(case.table[name], case.table["factor"], "x", color=colour, markersize=5)
+        axis.set_title(case.name, fontsize=8)
+        axis.legend(frameon=False, fontsize=8)
+        axis.tick_params(labelsize=8)
+    axes[-1].axis("off")
+    axes[-1].text(0.0, 0.5, "lines: computed, a dot a step\ncrosses: published\nload factor over displacement")
+    figure.savefig(output)
+
+
+def main(arguments: list[str]) -> None:
+    """Run everything; with "docs" also write the page's table and picture."""
+    found = {problem.CASE.name: runs(problem) for problem in PROBLEMS}
+    head = ["| case | published | other code | scene | finer | finest | iterations |", "|---|---|---|---|---|---|---|"]
+    table = [*head, *(row for problem in PROBLEMS for row in rows(problem, found[problem.CASE.name]))]
+    print("\n".join(table))
+    if arguments == ["docs"]:
+        page = (DOCS / "benchmarks.md").read_text()
+        start, end = page.index("<!-- table -->"), page.index("<!-- end -->")
+        written = "\n".join([page[:start] + "<!-- table -->", "", *table, "", page[end:]])
+        (DOCS / "benchmarks.md").write_text(written)
+        draw(found, DOCS / "images" / "benchmarks.png")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
