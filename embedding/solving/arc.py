@@ -24,8 +24,9 @@ FIRST, LARGEST = 0.1, 0.25
 """First step, and largest one, as parts of the stage."""
 MOST_ITERATIONS = 12
 """A correction that needs more is given up: a shorter step costs less."""
-LAUNCHES = 6
-"""How often the first step out of a singular state is halved."""
+LAUNCHES = (1.0, 3.0, 0.5, 0.25, 0.125, 0.0625)
+"""First steps out of a singular state that are tried, as parts of the first one. A slack sheet under next to no load is
+the harder case: it has next to no tension."""
 IMPATIENT = 0.2
 """A first step from rest is cut no shorter than this part before another way is tried."""
 RETRIES = 5
@@ -94,15 +95,16 @@ class ArcStage:
 
     def _out_of_rest(self, goal: Condition) -> Walk | Result:
         """The walk from a state at a small part of the load, found by Newton's method with a proximal term."""
-        fraction, reason = self._stride().first, Result.STEP_BELOW_MINIMUM
-        for _ in range(LAUNCHES):
+        reason = Result.STEP_BELOW_MINIMUM
+        for launch in LAUNCHES:
+            fraction = launch * self._stride().first
             found = step(self.session, self.stage, self.path.target(fraction))
             if found is None:
                 self.path.move(self.path.values(), fraction)
                 self._started = time.perf_counter()
                 return self._walk(goal)
-            fraction, reason = fraction / 2, found
-            self.session.cut(fraction / self._stride().first, found.name)
+            reason = found
+            self.session.cut(launch, found.name)
         return reason
 
     def _walk(self, goal: Condition) -> Walk | Result:

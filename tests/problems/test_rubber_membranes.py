@@ -1,11 +1,11 @@
-"""A circular membrane through its limit pressure, and a torus, with default settings."""
+"""A circular membrane through its limit pressure, Hencky's membrane and a torus, with default settings."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from problems import circular_membrane, torus_inflation
+from problems import circular_membrane, hencky_membrane, torus_inflation
 from problems.exact import circular_membrane as exact
 
 
@@ -33,3 +33,11 @@ def test_torus() -> None:
     gap = np.abs(solution["elastic_energy"] / torus_inflation.work(solution) - 1.0)[1:]
     assert gap.max() < 2e-3, "the work's quadrature in the first steps"
     assert gap[-1] < 1e-4
+
+
+@pytest.mark.parametrize(("nu", "C"), [(0.0, 0.718319), (0.2, 0.677435), (0.3, 0.653443), (0.5, 0.594879)])
+def test_hencky(nu: float, C: float) -> None:
+    """Hencky's constant, to the terms of the next order in (p a / (E h))^(2/3) = 1e-4."""
+    path = hencky_membrane.run(f"shell.material.poisson_ratio={nu}")
+    assert hencky_membrane.constant(path) == pytest.approx(C, rel=5e-5)
+    assert hencky_membrane.reference(path) == pytest.approx(C, abs=1e-6)

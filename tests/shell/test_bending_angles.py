@@ -10,7 +10,7 @@ import pytest
 from ngsolve import BND, CF, GridFunction
 
 from embedding.solving.problem import Problem
-from tests.bent import DISC, Table, mesh, problem_of
+from tests.bent import DISC, FOLLOWED, Bent, Table, clamped, mesh, metal, problem_of
 from tests.forms import Array, random_directions, set_on_shell, smooth
 
 PLATE: Table = {"kind": "plate", "length": 1.0, "width": 0.3}
@@ -19,6 +19,23 @@ SHAPES: tuple[Table, ...] = (
     {"kind": "t-section", "length": 1.0},
     {"kind": "cylinder", "radius": 1.0, "length": 1.0},
 )
+
+
+IN_SPACE: Table = {"reduction": "3d"}
+ROLLED: Table = {"loads": {"edge_moments": [{"edge": "x1", "moment": 2e-6}]}, "supports": clamped("x0")}
+SHELLS: dict[str, tuple[Table, Table]] = {
+    "pressed disc": (DISC, {"loads": {"surface_force": [0, 0, 2e-5]}, "supports": clamped("rim")}),
+    "branches": (SHAPES[1], {"loads": {"surface_force": [0, 0, 1e-6]}, "supports": clamped("bottom")}),
+    "rolled plate": (PLATE, ROLLED),
+}
+"""Shells that their loads turn far; the plate by 2.5 rad."""
+
+
+def loaded(name: str) -> Problem:
+    """A shell of SHELLS in equilibrium."""
+    shape, parts = SHELLS[name]
+    bent = Bent(shape, 0.02, metal(0.3), path=FOLLOWED, model=IN_SPACE, discretisation=mesh(2, 0.5), **parts)
+    return bent.converged().problem
 
 
 def field_of(problem: Problem, value: Any) -> Any:
@@ -36,6 +53,55 @@ def rows(problem: Problem, name: str) -> Array:
     system.form.Apply(system.unknowns.state.vec, residual)
     where = system.unknowns.range(name)
     return np.array(residual.FV().NumPy()[where])[np.asarray(system._solver.mask)[where]]
+
+
+@pytest.mark.parametrize("name", SHELLS)
+def test_averaged_normals_may_be_renewed_in_equilibrium(name: str) -> None:
+    """Another common direction shifts the angles of both sides of an edge: their sum, and with it the displacement
+    rows of the residual, stay. The rotations take up the shift in one linear solve that moves nothing else."""
+    problem = loaded(name)
+    system, unknowns = problem.system, problem.system.unknowns
+    bending, state = unknowns.bending, unknowns.state.vec
+    before = {part: np.array(unknowns.field(part).vec.FV().NumPy()) for part in unknowns.names}
+    average = bending.memory
+    moved = 1e-3 if name == "rolled plate" else 0.1
+    forces = np.abs(before["moment"]).max()
+    known = unknowns.field("u")
+    bending.refresh(field_of(problem, known + smooth(problem.domain, moved)))
+    assert np.abs(bending.memory - average).max() > 0.2 * moved
+    residual = state.CreateVector()
+    system.form.Apply(state, residual)
+    assert np.abs(rows(problem, "moment")).max() > 1e-5
+    if name != "rolled plate":  # the moment of its edge works on the rotation that is yet to be found
+        assert np.abs(rows(problem, "u")).max() < 1e-9 * forces
+    system.forget()
+    system.linearise()
+    state.data -= system.solve(residual)
+    for part in ("u", "moment"):
+        change = np.abs(unknowns.field(part).vec.FV().NumPy() - before[part]).max()
+        assert change < 1e-8 * np.abs(before[part]).max(), part
+    assert np.abs(unknowns.field("rotation").vec.FV().NumPy() - before["rotation"]).max() > 1e-5
+
+
+@pytest.mark.parametrize("name", SHELLS)
+def test_newton_contracts_at_once(name: str) -> None:
+    """The matrix is the derivative of a residual that measures rotations anew in every state: close to equilibrium one
+    update leaves next to nothing of a disturbance. Without the tangent of the moment, which has no potential, a
+    quarter to all of it is left."""
+    problem = loaded(name)
+    system, state = problem.system, problem.system.unknowns.state.vec.FV().NumPy()
+    assert system.symmetric == (name != "rolled plate")
+    for _ in range(2):
+        state += system.newton_update()[0].FV().NumPy()
+    start, where = state.copy(), system.unknowns.range("u")
+    sizes = []
+    for direction in random_directions(np.asarray(system._solver.mask), 1e-8, seed=4):
+        state[:] = start
+        state[where] += direction[where]
+        system.forget()
+        state += system.newton_update()[0].FV().NumPy()
+        sizes.append(np.abs((state - start)[where]).max() / np.abs(direction[where]).max())
+    assert max(sizes) < 2e-2
 
 
 @pytest.mark.parametrize(("shape", "reduction"), [({"kind": "strip", "length": 1.0}, "auto"), (DISC, "axisymmetric")])
