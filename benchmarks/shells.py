@@ -11,15 +11,19 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
-from problems import half_cylinder, hemisphere_with_hole, pulled_cylinder, slit_annulus, t_cantilever
-from problems.common import LoadPath
+from problems import half_cylinder, hemisphere_with_hole, hinged_roof, pulled_cylinder, slit_annulus, t_cantilever
+from problems.common import LoadPath, curve_through
+from problems.published.case import Case
 
 PROBLEMS: tuple[ModuleType, ...] = (
     hemisphere_with_hole, slit_annulus, pulled_cylinder, half_cylinder, t_cantilever,
 )  # fmt: skip
 REFINED = 1.0 / math.sqrt(2.0)
 """Of the element size from one mesh to the next: twice the triangles."""
+SHORT_STEPS = "path=[{control = 'arc-length', steps = 15}]"
+"""The roofs are drawn with more states on their paths than the default takes."""
 DOCS = Path(__file__).parent.parent / "docs"
 
 
@@ -54,14 +58,27 @@ def draw(found: dict[str, list[LoadPath]], output: Path) -> None:
         path, case = found[problem.CASE.name][-1], problem.CASE
         for number, name in enumerate(path.values):
             colour = ("#2f6690", "#c8553d", "#6d9a8b")[number]
-            axis.plot([0.0, *path.values[name]], [0.0, *path.factors], "-o", color=colour, markersize=3, label=name)
-            axis.plot(case.table[name], case.table["factor"], "x", color=colour, markersize=5)
+            draw_path(axis, colour, path, name, case, name)
         axis.set_title(case.name, fontsize=8)
         axis.legend(frameon=False, fontsize=8)
         axis.tick_params(labelsize=8)
-    axes[-1].axis("off")
-    axes[-1].text(0.0, 0.5, "lines: computed, a dot a step\ncrosses: published\nload factor over displacement")
+    for colour, (thickness, case) in zip(("#2f6690", "#c8553d"), hinged_roof.CASES.items(), strict=True):
+        path = hinged_roof.run(thickness, SHORT_STEPS)
+        draw_path(axes[-1], colour, path, "centre", case, f"thickness {thickness}")
+    axes[-1].set_title("hinged roofs: snap-through and snap-back", fontsize=8)
+    axes[-1].legend(frameon=False, fontsize=8)
+    axes[-1].tick_params(labelsize=8)
+    figure.supxlabel("displacement", fontsize=8)
+    figure.supylabel("load factor (dots: computed steps, and the spline through them; crosses: published)", fontsize=8)
     figure.savefig(output)
+
+
+def draw_path(axis: Any, colour: str, path: LoadPath, name: str, case: Case, label: str) -> None:
+    """One displacement: a dot a step, the spline through them, and the published points."""
+    factors, values = curve_through(path.factors, path.values[name])[0].T
+    axis.plot(values, factors, "-", color=colour, linewidth=1.2, label=label)
+    axis.plot(path.values[name], path.factors, "o", color=colour, markersize=3)
+    axis.plot(case.table[name], case.table["factor"], "x", color=colour, markersize=5)
 
 
 def main(arguments: list[str]) -> None:

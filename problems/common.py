@@ -105,13 +105,17 @@ class LoadPath:
 
         The curve is a spline from rest through the points, in their order; both axes are measured in its extent.
         """
-        points = np.array([(0.0, 0.0), *zip(factors, values, strict=True)])
-        extent = np.ptp(points, axis=0)
-        points /= extent
-        along = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)))
-        curve = CubicSpline(along, points)(np.linspace(0.0, along[-1], 200 * len(points)))
+        curve, extent = curve_through(factors, values)
         steps = np.column_stack([self.factors, self.values[name]]) / extent
-        return np.array([np.linalg.norm(curve - step, axis=1).min() for step in steps])
+        return np.array([np.linalg.norm(curve / extent - step, axis=1).min() for step in steps])
+
+
+def curve_through(factors: Sequence[float] | Array, values: Sequence[float] | Array) -> tuple[Array, Array]:
+    """Points (n, 2) of the spline from rest through load factors and displacements, and the extent (2,) of those."""
+    points = np.array([(0.0, 0.0), *zip(factors, values, strict=True)])
+    extent = np.ptp(points, axis=0)
+    along = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(points / extent, axis=0), axis=1)))
+    return CubicSpline(along, points)(np.linspace(0.0, along[-1], 200 * len(points))), extent
 
 
 def follow(scene: Scene, readings: Mapping[str, Reading], archive: Path | None = None) -> LoadPath:

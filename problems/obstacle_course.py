@@ -1,7 +1,7 @@
 """The linear shell obstacle course: Scordelis-Lo roof, pinched hemispheres and pinched cylinder, by small loads.
 
 Physics: one number a shell. The solver knows no linear theory: a part of the load is applied that is small enough for
-the answer to be linear in it to six digits, and the displacement divided by that part.
+the answer to be linear in it to 2e-6, and the displacement divided by that part.
 
 Reference: `problems.published.obstacle_course`: the value everybody quotes, and the one that Kirchhoff-Love shells
 converge to, which differs by up to 0.6 %.

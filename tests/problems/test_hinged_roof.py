@@ -20,15 +20,10 @@ def test_the_published_path(thickness: str) -> None:
     assert hinged_roof.distances(path, thickness).max() < 1e-2, "the table's four-node elements are 1 % off"
     assert path.solution.iterations <= 150
     unstable = path.solution["unstable_modes"]
-    between = (path.factors < limits[0] / 3000.0) & (np.arange(len(unstable)) > int(unstable.argmax()))
-    assert unstable.max() >= 1.0 and unstable[0] == unstable[-1] == 0.0, between
-
-
-def test_the_thin_one_snaps_back() -> None:
-    """Its crown moves up again on the way down: no displacement can be prescribed there."""
-    path = hinged_roof.run("6.35 m")
-    assert np.diff(path.values["centre"]).min() < -0.5
-    assert path.factors.min() < -0.12
+    assert unstable.max() == 1.0 and unstable[0] == unstable[-1] == 0.0, "unstable between the limit points alone"
+    if thickness == "6.35 m":
+        assert np.diff(path.values["centre"]).min() < -0.5, "the crown moves up again on the way down"
+        assert path.factors.min() < -0.12
 
 
 @pytest.mark.slow
