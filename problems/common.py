@@ -129,7 +129,8 @@ def follow(scene: Scene, readings: Mapping[str, Reading], archive: Path | None =
 def print_end(path: LoadPath, known: Mapping[str, float]) -> None:
     """The end of the path against known displacements, and what it cost."""
     for name, value in known.items():
-        print(f"{name}: {path.end(name):.6g} m (known {value:.6g} m, {100 * (path.end(name) / value - 1):+.3f} %)")
+        found, scale = path.end(name), path.solution.scene.shell.shape.size
+        print(f"{name}: {found:.6g} m, known {value:.6g} m: {(found - value) / scale:+.1e} of the size")
     print(f"{len(path.solution.steps)} steps, {path.solution.iterations} Newton iterations")
 
 
