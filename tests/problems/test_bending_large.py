@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from embedding import Discretisation, InfiniteCylinder, Model, NeoHookean, Scene, Shell, Sphere, Stage, solve
+from embedding import Discretisation, InfiniteCylinder, Model, NeoHookean, Scene, Shell, Sphere, Stage, explain, solve
+from embedding.geometry import domain as domains
 from problems.exact import cylinder, flexure, sphere
-from tests.bent import DISC, FOLLOWED, RUBBER, Bent, clamped, mesh, metal
+from tests.bent import DISC, FOLLOWED, RUBBER, Bent, Table, clamped, mesh, metal, scene_of
 from tests.forms import Array
 from tests.problems.measures import orders
+from tests.test_invariances import on_mesh, renumbered, same
 
 RATIOS = (0.2, 0.1, 0.05)
 STRETCHES = (1.05, 1.2, 1.5)
@@ -103,3 +105,16 @@ def test_a_quarter_is_the_whole() -> None:
         for symmetry in ("auto", "none")
     )  # fmt: skip
     assert quarter == pytest.approx(whole, rel=2e-4)
+
+
+@pytest.mark.parametrize("material", [metal(0.3), RUBBER], ids=["metal", "rubber"])
+def test_numbering_does_not_matter(material: Table, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A disc whose mesh has its points, elements and corners shuffled, bent far."""
+    scene = scene_of(
+        DISC, 0.02, material, supports=clamped("rim"), loads={"surface_force": [0.0, 0.0, 1e-3]}, path=FOLLOWED,
+        model={"reduction": "3d", "symmetry": "none"}, discretisation=mesh(2, 0.5),
+    )  # fmt: skip
+    plan = explain(scene)
+    straight = domains.meshing.mesh(scene.shell.shape, plan.reduction, plan.sizes)
+    plain, shuffled = (on_mesh(scene, renumbered(straight, seed), monkeypatch)[1] for seed in (0, 1))
+    same(plain, shuffled, 1e-7, "displacement", "stretch_max", "elastic_energy")

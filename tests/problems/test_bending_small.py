@@ -7,6 +7,7 @@ import pytest
 from problems.exact import plates
 from problems.exact.edge_bending import Tube
 from tests.bent import DISC, ONE_STEP, RUBBER, Bent, Table, clamped, mesh, metal, rigidity, young
+from tests.problems.measures import orders
 
 THIN = 1e-3
 METALS: tuple[Table, ...] = (metal(0.3), RUBBER)
@@ -62,14 +63,14 @@ def test_edge_layer_of_a_tube(material: Table) -> None:
 RATIOS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 
 
-def waved(ratio: float, shape: Table, locking: str) -> float:
+def waved(ratio: float, shape: Table, locking: str, element: float = 0.5) -> float:
     """Deflection over load E T^3 of a shell that a cos 2 phi load bends without stretching it."""
     size = 1e-4
     load = size * ratio**3
     force = [f"{load!r}*x*(x**2-y**2)", f"{load!r}*y*(x**2-y**2)", "0*x"]
     bent = Bent(
         shape, ratio, metal(0.0), loads={"surface_force": {"expression": force, "unit": "Pa"}}, path=ONE_STEP,
-        model={"reduction": "3d"}, discretisation=mesh(3, 0.5, locking=locking),
+        model={"reduction": "3d"}, discretisation=mesh(3, element, locking=locking),
     )  # fmt: skip
     return float(bent.moved(1.0, 0.0, 0.0)[0] / size)
 
@@ -96,3 +97,14 @@ def test_nothing_locks_on_a_hemisphere() -> None:
     assert max(errors) < 2.0 * min(errors)
     assert max(errors) < 0.1
     assert waved(1e-4, dome, "as it is") < 0.2 * fine, "what the cure is for"
+
+
+def test_a_hemisphere_bends_as_rayleigh_says() -> None:
+    """Without stretching there is one motion with two waves: outwards A (2 + cos f) tan^2(f/2) at the angle f from the
+    pole, with the energy 21 pi D (1 - nu) A^2 (Lord Rayleigh, Proc. London Math. Soc. 13 (1881) 4). The load does the
+    work 3/5 pi p A, so that w = 12/35 p R^4 / (E T^3) at the rim for nu = 0. The rim's edge layer adds a part
+    O((T/R)^(1/2)), and where it is thinner than an element a part O(h): order one, from above."""
+    dome: Table = {"kind": "hemisphere", "radius": 1.0}
+    errors = [waved(1e-6, dome, "auto", size) / (12.0 / 35.0) - 1.0 for size in (0.4, 0.2, 0.1)]
+    assert 0.0 < errors[2] < 8e-3
+    assert orders((0.4, 0.2, 0.1), errors) == pytest.approx([1.0, 1.0], abs=0.25)
