@@ -144,7 +144,6 @@ def tube_stretch(load: float) -> float:
     return l
 
 
-@pytest.mark.slow
 def test_a_cylinder_with_caps_in_space() -> None:
     """An eighth of it agrees with its meridian."""
     shape = {"kind": "cylinder", "radius": 1.0, "length": 2.0, "ends": "capped"}
