@@ -7,7 +7,8 @@ from embedding.scene import Scene
 from embedding.scene.checks_loads import needs_bending
 
 LOCKS = 0.04
-"""Thickness over size from which on plain strains of order 3 lock by a per cent at most, on meshes of the default size."""
+"""Thickness over size from which on plain strains of order 3 lock by a per cent at most, on meshes of the default
+size."""
 
 
 def choose_theory(scene: Scene) -> Decision:
