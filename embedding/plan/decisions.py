@@ -23,7 +23,7 @@ class Plan:
 
     ``opened`` names the faces ("t", "b") at their true places, ``odd_planes`` the mirror planes across which the
     potential changes sign. ``bending`` says whether the shell resists it,
-    ``locking_cured`` whether membrane strains are interpolated for it.
+    ``locking_cured`` whether membrane strains are interpolated for it, ``coupling`` the rung between shell and field.
     """
 
     reduction: Reduction
@@ -33,6 +33,7 @@ class Plan:
     decisions: tuple[Decision, ...]
     bending: bool = False
     locking_cured: bool = False
+    coupling: str = "joint"
 
     def text(self) -> str:
         """The decisions as aligned lines."""

@@ -7,6 +7,7 @@ from dataclasses import replace
 from embedding.geometry.domain import MeshSizes
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.sizes import AT_POINTS
+from embedding.plan.coupling import choose_coupling
 from embedding.plan.decisions import Decision, Plan
 from embedding.plan.symmetry import choose_reduction, odd_planes
 from embedding.plan.theory import choose_locking, choose_theory
@@ -34,10 +35,13 @@ def explain(scene: Scene) -> Plan:
         sizes = replace(sizes, points=points)
         reason = "the moment under a force grows with the logarithm of the distance"
         mesh = (*mesh, Decision("mesh at point loads", f"{sizes.shell / AT_POINTS:.3g} x size", reason))
-    rest = (_loads(scene), *_rigid(scene, reduction), *_field(scene), *faces, *mesh, _order(scene))
+    coupling = choose_coupling(scene)
+    between = (coupling,) if coupling else ()
+    rest = (_loads(scene), *_rigid(scene, reduction), *between, *_field(scene), *faces, *mesh, _order(scene))
     locking = choose_locking(scene) if bending else None
     decisions = (first, theory, *([locking] if locking else []), *rest)
-    return Plan(reduction, sizes, opened, odd, decisions, bending, locking is not None and locking.choice == "cured")
+    cured = locking is not None and locking.choice == "cured"
+    return Plan(reduction, sizes, opened, odd, decisions, bending, cured, coupling.choice if coupling else "joint")
 
 
 def _loaded_points(scene: Scene, reduction: Reduction) -> tuple[tuple[float, ...], ...]:
@@ -78,7 +82,7 @@ def _field(scene: Scene) -> tuple[Decision, ...]:
         jump = Decision("potential", "continuous", "both faces are electrodes at one potential: no jump to solve for")
     else:
         jump = Decision("potential", "with a jump", "the faces may differ: the jump is an unknown on the shell")
-    moving = Decision("field", "moves with the shell", "joint Newton of shell and field on the moved ambient")
+    moving = Decision("field", "moves with the shell", "the ambient follows the faces")
     if scene.ambient.outer == "grounded":
         far = Decision("far field", "grounded", "potential prescribed on the outer boundary, as the scene states")
     else:

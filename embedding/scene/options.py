@@ -14,13 +14,14 @@ from embedding.scene.units import Length, Number
 
 class Model(Part):
     """Choices of the model: ``theory`` is that of the shell, ``symmetry`` uses mirror planes in 3d, ``interface`` the
-    faces' true places."""
+    faces' true places, ``coupling`` how much field and shell know of each other."""
 
     theory: Literal["auto", "membrane", "bending"] = "auto"
     reduction: Literal["auto", "3d", "axisymmetric", "plane-strain"] = "auto"
     symmetry: Literal["auto", "none"] = "auto"
     interface: Literal["auto", "opened", "closed"] = "auto"
     far_field: Literal["auto", "robin"] = "auto"
+    coupling: Literal["auto", "joint", "staggered", "once", "unperturbed"] = "auto"
 
 
 class Fixed(dict[str, float]):
@@ -59,6 +60,8 @@ class Discretisation(Part):
 class Solver(Part):
     """Newton's method: tolerance, iterations per step, smallest fraction of a planned step, threads.
 
+    ``acceleration`` is that of field and shell solved in turn (model.coupling = "staggered").
+
     A stage that follows a path is given up after ``max_steps`` steps, or when it has gone ``max_arc`` times the size of
     the shape (root-mean-square displacement, added up).
     """
@@ -68,4 +71,5 @@ class Solver(Part):
     min_step: Annotated[float, BeforeValidator(Number(above=0.0, at_most=1.0))] = 1e-4
     max_steps: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=100_000))] = 500
     max_arc: Annotated[float, BeforeValidator(Number(above=0.0, at_most=1e6))] = 10.0
+    acceleration: Literal["iqn-ils", "aitken", "none"] = "iqn-ils"
     threads: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=1024))] = 1

@@ -66,7 +66,8 @@ class Run(Session):
 
     def _stage(self, stage: Stage, goals: Sequence[Condition]) -> Result:
         start, end = self._stage_start(stage), stage_target(stage, self.full_difference)
-        if followed(stage, start, end, with_field=self.problem.system.physics.field is not None):
+        with_field, joint = self.problem.system.physics.field is not None, self.solver is self.newton
+        if followed(stage, start, end, with_field=with_field, joint=joint):
             return ArcStage(self, stage, start, end).follow(goals)
         return ramp(self, stage, start, end, stage.steps or DEFAULT_STEPS)
 
@@ -99,5 +100,5 @@ class Run(Session):
             cpu_seconds=time.process_time() - self._cpu,
             peak_memory_bytes=1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
             unknowns=unknowns,
-            parts=dict(self.newton.clock.parts),
+            parts=dict(self.solver.clock.parts),
         )

@@ -18,6 +18,7 @@ import numpy as np
 from embedding.coupling.linear import LinearSolverError
 from embedding.coupling.system import System
 from embedding.solving.events import Iteration
+from embedding.solving.path import Target
 from embedding.solving.result import Result
 
 LARGEST_UPDATE = 0.5
@@ -43,10 +44,11 @@ class Clock:
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a Newton solve ended; ``reason`` is None when it converged."""
+    """How a Newton solve ended; ``reason`` is None when it converged, ``detail`` may say more about it."""
 
     iterations: tuple[Iteration, ...]
     reason: Result | None
+    detail: str = ""
 
 
 class Newton:
@@ -56,6 +58,11 @@ class Newton:
         self.system, self.tolerance, self.max_iterations = system, tolerance, max_iterations
         self._pressures = pressures
         self.clock = Clock()
+        self.scalars: dict[str, float] = {}  # other ways to solve a load step have something to tell, see Session
+
+    def load(self, target: Target) -> None:
+        """Set the load of the system."""
+        self.system.load(target.mechanical, target.field, target.volume, target.pressure)
 
     def solve(self, watch: Callable[[Iteration], None], *, at_rest: bool = False) -> Outcome:
         """Iterate from the present state; the state is only good afterwards if the outcome has no reason.

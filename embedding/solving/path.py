@@ -45,8 +45,13 @@ def stage_target(stage: Stage, full_difference: float | None) -> Target:
     return Target(stage.mechanical, stage.field, stage.volume_ratio, pressure)
 
 
-def followed(stage: Stage, start: Target, end: Target, *, with_field: bool) -> bool:
-    """Is the stage to be followed by arc length, wherever its load goes, rather than ramped?"""
+def followed(stage: Stage, start: Target, end: Target, *, with_field: bool, joint: bool = True) -> bool:
+    """Is the stage to be followed by arc length, wherever its load goes, rather than ramped?
+
+    That takes the tangent of a ``joint`` solve of shell and field.
+    """
+    if not joint:
+        return False
     if stage.control != "auto":
         return stage.control in ("arc-length", "displacement")
     if stage.until is not None or stage.branch is not None:
@@ -55,11 +60,12 @@ def followed(stage: Stage, start: Target, end: Target, *, with_field: bool) -> b
     return stage.steps is None and stage.volume_ratio is None and fixed and start.mechanical != end.mechanical
 
 
-def planned_steps(stage: Stage, *, with_field: bool) -> int | None:
+def planned_steps(stage: Stage, *, with_field: bool, joint: bool = True) -> int | None:
     """How many steps a stage will take, None if it follows its path in steps of its own choice."""
     here = Target(0.0, 0.0, None)
     there = Target(1.0, 1.0 if with_field else 0.0, stage.volume_ratio)
-    return None if followed(stage, here, there, with_field=with_field) else stage.steps or DEFAULT_STEPS
+    alone = followed(stage, here, there, with_field=with_field, joint=joint)
+    return None if alone else stage.steps or DEFAULT_STEPS
 
 
 @dataclass

@@ -35,19 +35,22 @@ def step(session: Session, stage: Stage, target: Target) -> Result | None:
     """Solve for ``target`` from the last good state and accept it; else a reason, and the last good state."""
     system, started = session.problem.system, time.perf_counter()
     saved = system.save()
-    system.load(target.mechanical, target.field, target.volume, target.pressure)
+    session.load(target)
 
     def watch(iteration: Iteration) -> None:
         session.iterated(target, iteration)
 
     try:
-        outcome = session.newton.solve(watch, at_rest=session.at_rest)
+        outcome = session.solver.solve(watch, at_rest=session.at_rest)
     except KeyboardInterrupt:
         session.go_back(saved)
         raise
     reason = outcome.reason
     if reason is None:
-        reason = session.accept(stage.name, target, outcome.iterations, started, unstable_modes(system))
+        unstable = unstable_modes(system) if session.solver is session.newton else None
+        reason = session.accept(stage.name, target, outcome.iterations, started, unstable)
+    else:
+        session.detail = outcome.detail
     if reason is not None:
         session.go_back(saved)
     return reason

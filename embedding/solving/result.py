@@ -37,6 +37,10 @@ class Result(Enum):
         "the path was followed for the longest way allowed without meeting the end of the stage: past a limit point "
         "the load may never be reached. Allow a longer way (solver.max_arc), or end the stage at a displacement (until)"
     )
+    STAGGERED_DIVERGED = (
+        "field and shell, solved in turn, do not settle: each changes what the other does too much. "
+        'Solve them together (model.coupling = "joint"), or accelerate the turns (solver.acceleration = "iqn-ils")'
+    )
     STEP_BELOW_MINIMUM = (
         "Newton's method did not converge with the smallest step allowed. "
         "Make the mesh on the shell finer, add steps, or start from an inflated state"

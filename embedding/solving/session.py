@@ -9,6 +9,7 @@ from typing import Any
 
 from embedding.plan import explain
 from embedding.scene import Scene
+from embedding.solving.acceleration import ACCELERATORS
 from embedding.solving.critical import Critical
 from embedding.solving.diagnosis import compressed, region_in_compression
 from embedding.solving.events import Iteration, Listener, StepRecord
@@ -18,6 +19,7 @@ from embedding.solving.problem import Problem
 from embedding.solving.result import Result
 from embedding.solving.solution import CriticalPoint
 from embedding.solving.stability import countable
+from embedding.solving.staggered import Once, Staggered
 from embedding.solving.state import State
 
 REST = 1e-6
@@ -33,11 +35,24 @@ class Session:
         self.state = State(self.problem)
         options = scene.solver
         self.newton = Newton(self.problem.system, options.tolerance, options.max_iterations, self.state.mean_pressures)
+        self.solver = self._rung()
         self.steps: list[StepRecord] = []
         self.critical: list[CriticalPoint] = []
         self.iterations = 0
         self.detail = ""
         self.at = Target(0.0, 0.0, None, None if self.full_difference is None else 0.0)
+
+    def _rung(self) -> Newton | Staggered | Once:
+        """What solves a load step: the joint Newton method, or what the plan has in its place."""
+        options, joint, coupling = self.scene.solver, self.problem.system, self.problem.plan.coupling
+        limits = options.tolerance, options.max_iterations, self.state.mean_pressures
+        if coupling == "staggered":
+            return Staggered(joint, *limits, ACCELERATORS[options.acceleration]())
+        return Once(joint, *limits) if coupling == "once" else self.newton
+
+    def load(self, target: Target) -> None:
+        """Set the load of everything that is solved."""
+        self.solver.load(target)
 
     @property
     def full_difference(self) -> float | None:
@@ -67,7 +82,7 @@ class Session:
         self, stage: str, target: Target, iterations: Sequence[Iteration], started: float, unstable: int | None
     ) -> Result | None:
         """Record the present, converged state as the next step; a reason if it is not to be kept."""
-        scalars = self.state.scalars()
+        scalars = self.state.scalars() | self.solver.scalars
         if compressed(self.problem, scalars):
             self.detail = region_in_compression(self.problem, self.state)
             return Result.COMPRESSIVE_MEMBRANE
@@ -97,7 +112,7 @@ class Session:
     def go_back(self, saved: Any) -> None:
         """Return to the last good state and its load."""
         self.problem.system.restore(saved)
-        self.problem.system.load(self.at.mechanical, self.at.field, self.at.volume, self.at.pressure)
+        self.load(self.at)
 
     def told(self, result: Result) -> str:
         """The message of a solve that ended with ``result``."""

@@ -36,6 +36,7 @@ class ProgressDisplay(Listener):
         self.accepted_steps, self.step_number = 0, 1
         self.target: dict[str, float] = {}
         self.has_field, self.counted = False, True
+        self.heading, self.counts = "Newton", "iterations"
         self.newton: list[Iteration] = []
         self.last: StepRecord | None = None
         self.note = ""
@@ -60,7 +61,10 @@ class ProgressDisplay(Listener):
         """The problem is meshed: say what will be solved."""
         stages = problem.scene.path
         self.has_field = problem.scene.ambient is not None
-        counts = [planned_steps(stage, with_field=self.has_field) for stage in stages]
+        joint = problem.plan.coupling == "joint"
+        if problem.plan.coupling == "staggered":
+            self.heading, self.counts = "turn", "turns"
+        counts = [planned_steps(stage, with_field=self.has_field, joint=joint) for stage in stages]
         self.stage_ends = []
         for stage, count in zip(stages, counts, strict=True):
             if count is None:
@@ -87,7 +91,7 @@ class ProgressDisplay(Listener):
         self.target |= {name: value for name, value in ended.items() if name in self.target}
         self._line(
             f"step {self._of(record.number)} ({record.stage}): {self._load()}, "
-            f"{len(record.iterations)} iterations{self._stretch(record)}, {self._elapsed()}"
+            f"{len(record.iterations)} {self.counts}{self._stretch(record)}, {self._elapsed()}"
         )
 
     def cut(self, step_number: int, fraction: float, reason: str) -> None:
@@ -126,7 +130,7 @@ class ProgressDisplay(Listener):
     def _history(self) -> Table:
         """Newton steps of the present load step, the newest eight."""
         table = Table(box=None, padding=(0, 2), header_style="dim")
-        for heading in ("Newton", "update", "residual", "p_t [Pa]", "p_b [Pa]"):
+        for heading in (self.heading, "update", "residual", "p_t [Pa]", "p_b [Pa]"):
             table.add_column(heading, justify="right")
         for one in self.newton[-8:]:
             table.add_row(

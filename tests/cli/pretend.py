@@ -71,7 +71,8 @@ def solution(scene: Any, archive: Path | None, steps: Sequence[StepRecord], resu
 
 def problem(scene: Any) -> Any:
     """Something with the face of a Problem, as far as listeners of the command line look."""
-    return SimpleNamespace(scene=scene, reduction=SimpleNamespace(name="axisymmetric"))
+    plan = SimpleNamespace(coupling="joint")
+    return SimpleNamespace(scene=scene, plan=plan, reduction=SimpleNamespace(name="axisymmetric"))
 
 
 def play(scene: Any, listeners: Sequence[Any], fail_at: int | None = None) -> list[StepRecord]:
