@@ -1,6 +1,6 @@
-"""Motion of the ambient mesh on one side of the shell: it follows the face, and no element turns over.
+"""Motion of the ambient mesh around the shell: it follows the faces, and no element turns over.
 
-The face carries its displacement y into the elements that touch it (the shell's own basis functions); the interior
+Each face carries its displacement y into the elements that touch it (the shell's own basis functions); the interior
 motion w, piecewise quadratic, takes up the rest by lowering a hyperelastic energy that is stiff where elements are
 small. Any admissible w gives the same physics up to the discretisation error, so w takes one linearised step whenever
 the face has moved noticeably and rests otherwise: with w at rest Newton's method on shell and field is quadratic. What
@@ -10,12 +10,13 @@ matters is that det F stays positive, and that is measured after every move.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from ngsolve import (
     ET,
-    VOL,
     BilinearForm,
     Det,
     Grad,
@@ -33,6 +34,7 @@ from ngsolve import (
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits, plane_mask, scalar_mask
 
+Array = npt.NDArray[np.float64]
 INTERIOR_ORDER = 2
 VOLUME_PRICE = {2: 0.3, 3: 0.02}
 GUARD = 0.02
@@ -47,48 +49,72 @@ moved by less than ``OUTDATED`` (shell sizes) since, and a step with it leaves a
 residual. A face that moved less than ``NOTICEABLE`` (mesh sizes) does not disturb the interior."""
 
 
-class SideMotion:
-    """The motion y + w of one ``side`` ("outside" or "inside"): face displacement ``y``, interior motion ``w``."""
+class AmbientMotion:
+    """The motion y + w of the ambient on one or both sides: face displacements ``y`` by side, interior motion ``w``.
 
-    def __init__(self, domain: Domain, side: str, face: Any) -> None:
-        mesh, materials = domain.mesh, domain.materials(side)
-        interior = VectorH1(mesh, order=INTERIOR_ORDER, definedon=mesh.Materials(materials))
-        self.y, self.w = GridFunction(face), GridFunction(interior)
-        self._settled = np.zeros(face.ndof)
-        self._assembled_at = np.zeros(face.ndof)
+    ``faces`` holds the space of the face's displacement for each side ("outside", "inside"). Around an open shell both
+    sides are one space; a closed one parts them, and each side has a motion of its own.
+    """
+
+    def __init__(self, domain: Domain, faces: Mapping[str, Any]) -> None:
+        mesh = domain.mesh
+        self.materials = "|".join(domain.materials(side) for side in faces)
+        interior = VectorH1(mesh, order=INTERIOR_ORDER, definedon=mesh.Materials(self.materials))
+        self.y = {side: GridFunction(space) for side, space in faces.items()}
+        self.w = GridFunction(interior)
+        self._settled = np.zeros(self._face().size)
+        self._assembled_at = self._settled.copy()
         self._inverse: Any = None
         self._noticeable = NOTICEABLE * domain.sizes.shell
         trial = interior.TrialFunction()
         rule = {element: IntegrationRule(element, 2 * INTERIOR_ORDER) for element in (ET.TET, ET.TRIG)}
         self._form = BilinearForm(interior, symmetric=True)
-        strain = _extension_energy(Id(mesh.dim) + Grad(self.y) + Grad(trial))
-        self._form += Variation(strain * dx(materials, intrules=rule)).Compile()
+        for materials, y in self._parts(domain):
+            strain = _extension_energy(Id(mesh.dim) + (Grad(trial) if y is None else Grad(y) + Grad(trial)))
+            self._form += Variation(strain * dx(materials, intrules=rule)).Compile()
         self._free = as_bits(_interior_mask(domain, interior))
-        self._jacobian = Det(Id(mesh.dim) + Grad(self.y) + Grad(self.w)).Compile()
-        self._points = [
-            mesh.MapToAllElements(_sampling(mesh.dim, order), mesh.Materials(pattern))
-            for pattern, order in _parts(domain, side)
+        self._samples = [
+            (Det(gradient).Compile(), mesh.MapToAllElements(_sampling(mesh.dim, order), mesh.Materials(materials)))
+            for materials, gradient, order in self._gradients(domain)
+        ]
+
+    def _parts(self, domain: Domain) -> list[tuple[str, Any]]:
+        """Patterns of materials with the face displacement that reaches into them, None where none does."""
+        parts: list[tuple[str, Any]] = [(domain.near(side), y) for side, y in self.y.items()]
+        return parts + [(far, None) for far in map(domain.far, self.y) if far is not None]
+
+    def _gradients(self, domain: Domain) -> list[tuple[str, Any, int]]:
+        """F by pattern of materials, with the order of the sampling rule: fine where the motion of a face reaches."""
+        unmoved = Id(domain.mesh.dim) + Grad(self.w)
+        order = 2 * domain.sizes.order
+        return [
+            (materials, unmoved, INTERIOR_ORDER) if y is None else (materials, unmoved + Grad(y), order)
+            for materials, y in self._parts(domain)
         ]
 
     @property
     def min_jacobian(self) -> float:
-        """Smallest det F over the sample points of this side (1 for the undeformed mesh)."""
-        return min(float(np.min(self._jacobian(points))) for points in self._points)
+        """Smallest det F over the sample points (1 for the undeformed mesh)."""
+        return min(float(np.min(jacobian(points))) for jacobian, points in self._samples)
 
     def vectors(self) -> list[Any]:
-        """The vectors that make up the state of the motion: face, interior, and where the face was last settled."""
-        return [self.y.vec.FV().NumPy(), self.w.vec.FV().NumPy(), self._settled]
+        """The vectors that make up the state of the motion: faces, interior, and where the faces were last settled."""
+        return [*(y.vec.FV().NumPy() for y in self.y.values()), self.w.vec.FV().NumPy(), self._settled]
 
-    def follow(self, face: Any) -> bool:
-        """Move the face to the displacement vector ``face``; False (and nothing moved) if elements would turn over."""
+    def _face(self) -> Array:
+        return np.concatenate([np.array(y.vec.FV().NumPy()) for y in self.y.values()])
+
+    def follow(self, faces: Mapping[str, Array]) -> bool:
+        """Move the faces to the displacements ``faces``, unknowns by side; False (and nothing moved) if elements would
+        turn over."""
         saved = [vector.copy() for vector in self.vectors()]
-        target = np.array(face.FV().NumPy())
+        start, target = self._face(), np.concatenate([faces[side] for side in self.y])
         if np.abs(target - self._settled).max(initial=0.0) <= self._noticeable and self._place(target):
             return True
         substeps = 1
         while substeps <= MOST_SUBSTEPS:
             self._restore(saved)
-            if self._walk(saved[0], target, substeps):
+            if self._walk(start, target, substeps):
                 self._settled[:] = target
                 return True
             substeps *= 4
@@ -113,8 +139,10 @@ class SideMotion:
             vector[:] = values
 
     def _place(self, face: Any) -> bool:
-        """Move the face alone."""
-        self.y.vec.FV().NumPy()[:] = face
+        """Move the faces alone."""
+        parts = np.split(face, np.cumsum([y.vec.size for y in self.y.values()])[:-1])
+        for y, part in zip(self.y.values(), parts, strict=True):
+            y.vec.FV().NumPy()[:] = part
         return self.min_jacobian > GUARD
 
     def _settle(self, face: Any) -> bool:
@@ -149,25 +177,13 @@ class SideMotion:
         return step, math.sqrt(abs(InnerProduct(step, residual)))
 
 
-def _parts(domain: Domain, side: str) -> list[tuple[str, int]]:
-    """Materials of a side with the order of the sampling rule: fine where the motion of the face reaches."""
-    near = domain.near(side)
-    if near == domain.materials(side):
-        return [(near, 2 * domain.sizes.order)]
-    return [(near, 2 * domain.sizes.order)] + ([(side, INTERIOR_ORDER)] if side in _used_materials(domain) else [])
-
-
-def _used_materials(domain: Domain) -> set[str]:
-    return {element.mat for element in domain.mesh.Elements(VOL)}
-
-
 def _sampling(dimension: int, order: int) -> IntegrationRule:
     return IntegrationRule(ET.TET if dimension == 3 else ET.TRIG, order)
 
 
 def _interior_mask(domain: Domain, interior: Any) -> Any:
     scalar = interior.components[0]
-    held = scalar_mask(scalar, domain.shell) | scalar_mask(scalar, domain.mesh.Boundaries("outer"))
+    held = scalar_mask(scalar, domain.mesh.Boundaries("shell|outer|body.*"))
     on_side = np.fromiter((bool(f) for f in scalar.FreeDofs()), bool, scalar.ndof)
     free = np.tile(on_side & ~held, (domain.mesh.dim, 1))
     for axis in symmetry_components(domain):

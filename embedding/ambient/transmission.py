@@ -1,28 +1,77 @@
-"""The field inside a linear dielectric or permeable shell, from the potential's mean and jump over its faces.
+"""The field inside the shell's material, from the potential's mean and jump over its faces.
 
-The shell is thin, so inside it the field is constant through the thickness: its normal part is the jump over the
-current thickness, -(Phi_t - Phi_b) / (lambda T), its tangential part the surface gradient of the mean. The energy per
-reference area of the incompressible shell (volume T per area, whatever the stretch) is
+The shell is thin, so inside it the field is constant through the thickness. Pulled back, with F-hat = F + lambda n (x)
+N and det F-hat = 1, it is
 
-    1/2 eps_r [ (Phi_t - Phi_b)^2 / (lambda T)^2 + |F-hat^{-T} Grad_S mean|^2 ] T.
+    H = F-hat^T h = - (Phi_t - Phi_b) / T  N  -  Grad_S mean,
 
-Source: theory page, "The field inside the shell"; design of the opened interface.
+so that its normal part is the jump over the present thickness and its tangential part the surface gradient of the mean.
+Co-energy per reference area, with the flux b = d / dh as its derivative:
+
+    linear        T  eps_r / 2 |h|^2
+    saturating    T [ |h|^2 / 2 + (M_s^2 / chi) (sqrt(1 + (chi |h| / M_s)^2) - 1) ],   chi = mu_r - 1
+    remanent    + T  B~_r . H                     (b_r = F-hat B~_r is carried by the material)
+
+The saturating law has the magnetisation chi h / sqrt(1 + (chi |h| / M_s)^2): slope chi at rest, M_s far out, smooth.
+The remanent part does not depend on the deformation: what turns and pulls a magnet is the field around it. Sources:
+theory page, "The field"; Zhao, Kim, Cheng, Vogt, Zhao, J. Mech. Phys. Solids 124 (2019) 244 for B_r = F B~_r.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
-from ngsolve import InnerProduct
+from ngsolve import CF, InnerProduct, sqrt
 
 from embedding.shell.kinematics import Kinematics
 
 
-def shell_field_energy(kinematics: Kinematics, thickness: float, contrast: float, jump: Any, mean_gradient: Any) -> Any:
-    """Field energy inside the shell per reference area.
+@dataclass(frozen=True)
+class Matter:
+    """What the shell's material does to a field, dimensionless; numbers or coefficient functions on the shell.
+
+    ``contrast`` is the relative permittivity or permeability, None for a conductor. ``remanence`` holds the mesh
+    components of B~_r in the reference, ``saturation`` the limit M_s of the induced magnetisation.
+    """
+
+    contrast: Any | None = None
+    remanence: Any | None = None
+    saturation: Any | None = None
+
+    def coenergy(self, field_squared: Any, pulled_back: Any) -> Any:
+        """Co-energy per reference volume for |h|^2 and the pulled-back field H (mesh components)."""
+        contrast = CF(1.0 if self.contrast is None else self.contrast)
+        if self.saturation is None:
+            stored = 0.5 * contrast * field_squared
+        else:
+            stored = 0.5 * field_squared + self._magnetised(contrast - 1, field_squared)
+        return stored if self.remanence is None else stored + InnerProduct(CF(self.remanence), pulled_back)
+
+    def excess(self, field_squared: Any, pulled_back: Any) -> Any:
+        """Co-energy above that of free space in the same field."""
+        return self.coenergy(field_squared, pulled_back) - 0.5 * field_squared
+
+    def _magnetised(self, chi: Any, field_squared: Any) -> Any:
+        limit = CF(self.saturation)
+        return limit**2 / chi * (sqrt(1 + chi**2 * field_squared / limit**2) - 1)
+
+
+def shell_field_energy(kinematics: Kinematics, thickness: Any, matter: Matter, jump: Any, mean_gradient: Any) -> Any:
+    """Field co-energy inside the shell per reference area.
 
     ``jump`` is Phi_t - Phi_b and ``mean_gradient`` the reference surface gradient of (Phi_t + Phi_b) / 2.
     """
-    normal_squared = jump * jump * kinematics.surface_stretch_squared / thickness**2
     tangential = kinematics.inverse_transpose * mean_gradient
-    return 0.5 * contrast * thickness * (normal_squared + InnerProduct(tangential, tangential))
+    normal_squared = jump * jump * kinematics.surface_stretch_squared / thickness**2
+    pulled_back = -1 / thickness * jump * kinematics.reference_normal - mean_gradient
+    return thickness * matter.coenergy(normal_squared + InnerProduct(tangential, tangential), pulled_back)
+
+
+def given_field_energy(kinematics: Kinematics, thickness: Any, matter: Matter, strength: Any) -> Any:
+    """Excess co-energy per reference area of a shell in a field it does not change, ``strength`` at its present place.
+
+    Exact for remanence in the field of others; of an induced magnetisation the first order in mu_r - 1.
+    """
+    pulled_back = kinematics.spatial_gradient.trans * strength
+    return thickness * matter.excess(InnerProduct(strength, strength), pulled_back)

@@ -32,7 +32,7 @@ def form_of(lagrangian: Lagrangian) -> Any:
     bending, membrane, physics = lagrangian.unknowns.bending, lagrangian.membrane, lagrangian.physics
     if not isinstance(bending, SurfaceBending) or membrane is None:
         return lagrangian.joint_form()
-    if physics.field is not None or physics.loads.edge_moments or not supported(lagrangian.domain, physics.law):
+    if lagrangian.unknowns.faces or physics.loads.edge_moments or not supported(lagrangian.domain, physics.law):
         return lagrangian.joint_form()
     return ElementwiseForm(lagrangian, bending, membrane)
 

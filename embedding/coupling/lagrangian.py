@@ -2,24 +2,27 @@
 
     L = int T Psi dA  +  dead loads  +  p~ (V - V_target)                          shell
       - int 1/2 eps J |F^{-T} Grad Phi|^2 dX  -  far field                         ambient, moved by y + w
-      - int 1/2 eps_r [...] T dA                                                   field inside the shell
+      - int T W*(h, B~_r) dA                                                       field inside the shell
+      + sum Q V                                                                    conductors with given charges
       + int tau_t . (u + (T/2) lambda n - y_t) + tau_b . (u - (T/2) lambda n - y_b) dA      faces (opened interface)
 
 u displaces the mid-surface, y_t and y_b the faces, w (frozen here) the ambient's interior. Stationarity in tau places
 the faces, in y makes -tau the traction on the face, in u gives all its work, in Phi the field. With the interface
-closed, y_t = y_b = u and tau drops out. Source: theory page, "The coupled Lagrangian".
+closed, y_t = y_b = u and tau drops out. On an open shell y = u + o, and o is the unknown. The charges Q are constant
+forces on the potentials V of their conductors, which the system adds. Source: theory page, "The coupled Lagrangian".
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from ngsolve import CF, BilinearForm, Grad, GridFunction, InnerProduct, Parameter, Variation
 
 from embedding.ambient.energy import far_field_energy, field_energy
-from embedding.ambient.motion import SideMotion
-from embedding.ambient.transmission import shell_field_energy
-from embedding.coupling.physics import FieldPhysics, Physics
+from embedding.ambient.motion import AmbientMotion
+from embedding.ambient.transmission import given_field_energy, shell_field_energy
+from embedding.coupling.physics import FieldPhysics, Physics, Solid
 from embedding.coupling.unknowns import SIDES, Unknowns
 from embedding.geometry.domain import Domain
 from embedding.shell.edges import edge_residual
@@ -51,6 +54,14 @@ class Factors:
         self.proximal = Parameter(0.0)
 
 
+@dataclass(frozen=True)
+class Moved:
+    """A motion of the ambient and its reference gradient."""
+
+    value: Any
+    gradient: Any
+
+
 class Lagrangian:
     """Builds the forms of a coupled problem on ``unknowns``; symmetric unless a load has no potential."""
 
@@ -59,7 +70,7 @@ class Lagrangian:
         domain: Domain,
         physics: Physics,
         unknowns: Unknowns,
-        motions: dict[str, SideMotion],
+        motions: dict[str, AmbientMotion],
         factors: Factors,
     ) -> None:
         self.domain, self.physics, self.unknowns = domain, physics, unknowns
@@ -80,9 +91,14 @@ class Lagrangian:
         """Kinematics of the mid-surface (or of a face) for the unknowns ``values``."""
         return Kinematics(self.domain.reduction, self.domain.normal, values[displacement], self.axial(values))
 
-    def face(self, name: str) -> str:
-        """The displacement that moves face ``name`` ("t" or "b")."""
-        return f"y_{name}" if name in self.unknowns.opened else "u"
+    def motion_of(self, face: str, values: dict[str, Any]) -> Moved:
+        """What moves the elements beside ``face`` ("t" or "b"), without the ambient's interior motion."""
+        names = [] if face in self.unknowns.opened and not self.domain.open else ["u"]
+        names += [self.unknowns.moved_by(face)] if face in self.unknowns.opened else []
+        return Moved(
+            sum((values[name] for name in names[1:]), values[names[0]]),
+            sum((Grad(values[name]) for name in names[1:]), Grad(values[names[0]])),
+        )
 
     def side_potential_gradient(self, side: str, values: dict[str, Any]) -> Any:
         """Reference gradient of the potential on ``side`` in the elements that touch the shell."""
@@ -90,44 +106,83 @@ class Lagrangian:
         lifted = "jump" in values and side == self._field.electrodes.lifted
         return gradient + Grad(values["jump"]) if lifted else gradient
 
-    def side_energies(self, values: dict[str, Any], side: str, face: str) -> list[Any]:
+    def side_energies(self, values: dict[str, Any], side: str, face: Moved) -> list[Any]:
         """Field energy of one side: where the shell's motion reaches, and beyond."""
         w, domain = self.motions[side].w, self.domain
-        moved, slope = values[face] + w, Grad(values[face]) + Grad(w)
+        liquid = self._field.liquids.get(side, 1.0)
+        moved, slope = face.value + w, face.gradient + Grad(w)
         gradient = self.side_potential_gradient(side, values)
-        near = domain.near(side)
-        terms = [
-            field_energy(domain.reduction, moved, slope, gradient, self.physics.axial_stretch) * domain.volume(near)
-        ]
-        if near != domain.materials(side):
-            far = field_energy(domain.reduction, w, Grad(w), Grad(values["phi"]), self.physics.axial_stretch)
-            terms.append(far * domain.volume(side))
+        near = field_energy(domain.reduction, moved, slope, gradient, self.physics.axial_stretch)
+        terms = [liquid * near * domain.volume(domain.near(side))]
+        far = domain.far(side)
+        if far is not None:
+            energy = field_energy(domain.reduction, w, Grad(w), Grad(values["phi"]), self.physics.axial_stretch)
+            terms.append(liquid * energy * domain.volume(far))
         return terms
 
     def field_energies(self, values: dict[str, Any]) -> list[Any]:
-        """Every term of the field energy: both sides, the far field, and the inside of the shell."""
-        field, domain = self._field, self.domain
+        """Every term of the field's co-energy: both sides, what lies beyond, other bodies, the inside of the shell."""
+        field = self.physics.field
+        if field is None:
+            return []
+        if field.extent == "given":
+            return [self._in_given_field(values) * self.domain.surface()]
+        if field.extent == "inside":
+            return [self._film(values) * self.domain.surface()]
         terms = []
         for name, side in SIDES.items():
-            terms += self.side_energies(values, side, self.face(name))
-        if not field.grounded:
-            applied = self.factors.field * CF(field.applied)
-            terms.append(
-                self.physics.axial_stretch
-                * far_field_energy(domain.reduction, values["phi"], applied, domain.sizes.radius)
-                * domain.surface("outer")
-            )
-        if field.contrast is not None and "jump" in values:
-            terms.append(self._inside_shell(values, field.contrast) * self.domain.surface())
+            terms += self.side_energies(values, side, self.motion_of(name, values))
+        terms += self._far_energies(values) + self._solid_energies(values)
+        if "jump" in values and (field.matter.contrast is not None or field.matter.remanence is not None):
+            terms.append(self._inside_shell(values) * self.domain.surface())
         return terms
 
-    def _inside_shell(self, values: dict[str, Any], contrast: float) -> Any:
+    def _far_energies(self, values: dict[str, Any]) -> list[Any]:
+        field, domain = self._field, self.domain
+        if field.grounded:
+            return []
+        applied = self.factors.field * CF(field.applied)
+        energy = far_field_energy(domain.reduction, values["phi"], applied, domain.sizes.radius)
+        weight = self.physics.axial_stretch * field.liquids.get("outside", 1.0)
+        return [weight * energy * domain.surface("outer")]
+
+    def _solid_energies(self, values: dict[str, Any]) -> list[Any]:
+        """Bodies with a field inside, at rest; a magnet's strength follows the field's factor."""
+        terms = []
+        for number, body in enumerate(self._field.bodies):
+            if isinstance(body, Solid):
+                field = -1 * Grad(values["phi"])
+                energy = 0.5 * body.contrast * InnerProduct(field, field)
+                if body.remanence is not None:
+                    energy = energy + self.factors.field * InnerProduct(CF(body.remanence), field)
+                terms.append(self.measure * self.physics.axial_stretch * energy * self.domain.volume(f"magnet{number}"))
+        return terms
+
+    def _inside_shell(self, values: dict[str, Any]) -> Any:
         sign = 1.0 if self._field.electrodes.lifted == "outside" else -1.0
         half_jump = 0.5 * surface_gradient(values["jump"])
         mean_gradient = surface_gradient(values["phi"]) + half_jump
-        jump = sign * _trace(values["jump"])
-        kinematics = self.kinematics(values)
-        return self.measure * shell_field_energy(kinematics, self.physics.thickness, contrast, jump, mean_gradient)
+        return self._coenergy(values, sign * _trace(values["jump"]), mean_gradient)
+
+    def _film(self, values: dict[str, Any]) -> Any:
+        """The field between two electrodes, constant over the surface they cover."""
+        electrodes = self._field.electrodes
+        covered = self.domain.covered(electrodes.where) if electrodes.where else 1.0
+        sign = 1.0 if electrodes.lifted == "outside" else -1.0
+        return self._coenergy(values, sign * covered * values["jump"], CF((0.0,) * self.domain.mesh.dim))
+
+    def _coenergy(self, values: dict[str, Any], jump: Any, mean_gradient: Any) -> Any:
+        matter, thickness = self._field.matter, self.physics.thickness
+        return self.measure * shell_field_energy(self.kinematics(values), thickness, matter, jump, mean_gradient)
+
+    def _in_given_field(self, values: dict[str, Any]) -> Any:
+        field, kinematics = self._field, self.kinematics(values)
+        place = self.domain.reduction.position + _trace(values["u"])
+        strength = CF(field.applied) if field.varying is None else CF(field.applied) + field.varying(place)
+        matter = field.matter
+        return self.measure * given_field_energy(
+            kinematics, self.physics.thickness, matter, self.factors.field * strength
+        )
 
     @property
     def _field(self) -> FieldPhysics:
@@ -150,9 +205,8 @@ class Lagrangian:
         form = BilinearForm(self.unknowns.space, symmetric=not residuals, condense=condense)
         for term in self._shell_energies(trial, elastic=elastic):
             form += Variation(term).Compile()
-        if self.physics.field is not None:
-            for term in self.field_energies(trial):
-                form += Variation(-1 * term).Compile()
+        for term in self.field_energies(trial):
+            form += Variation(-1 * term).Compile()
         for term in [*([self._proximal()] * proximal), *self._openings(), *residuals]:
             form += term.Compile()
         return form
@@ -191,15 +245,16 @@ class Lagrangian:
     def _openings(self) -> list[Any]:
         """The part of the faces' terms that is linear in the unknowns, with the anchors, as a bilinear form.
 
-        The gap u - y is paired with tau both ways; written out it is assembled several times faster than by
+        The gap u - y (or -o) is paired with tau both ways; written out it is assembled several times faster than by
         differentiating an energy. What is nonlinear, the director, is among the shell's energies.
         """
         trial = {name: _trace(value) for name, value in self.unknowns.trial.items()}
         test = {name: _trace(value) for name, value in self.unknowns.test.items()}
         terms = []
         for face in self.unknowns.opened:
-            y, tau = f"y_{face}", f"tau_{face}"
-            pairing = InnerProduct(trial[tau], test["u"] - test[y]) + InnerProduct(test[tau], trial["u"] - trial[y])
+            y, tau = self.unknowns.moved_by(face), f"tau_{face}"
+            gap, gap_test = (-1 * v[y] if self.domain.open else v["u"] - v[y] for v in (trial, test))
+            pairing = InnerProduct(trial[tau], gap_test) + InnerProduct(test[tau], gap)
             for name, strength in ((tau, ANCHOR), (y, -ANCHOR)):
                 shift = trial[name] - self.unknowns.field(name)
                 pairing = pairing + strength * InnerProduct(shift, test[name])

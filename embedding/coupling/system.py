@@ -8,18 +8,19 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sparse
-from ngsolve import BND, BilinearForm, FESpace, GridFunction, InnerProduct, Variation
+from ngsolve import BND, GridFunction, InnerProduct
 
-from embedding.ambient.motion import SideMotion
+from embedding.ambient.motion import AmbientMotion
 from embedding.coupling.elementwise import form_of
 from embedding.coupling.lagrangian import OFFSET, Factors, Lagrangian
 from embedding.coupling.linear import DirectSolver
 from embedding.coupling.physics import Physics
+from embedding.coupling.potential_solve import PotentialSolve
 from embedding.coupling.tractions import FaceTractions
 from embedding.coupling.unknowns import SIDES, Unknowns
 from embedding.geometry.domain import Domain
 from embedding.geometry.places import displaced
-from embedding.geometry.spaces import Mask, as_bits
+from embedding.geometry.spaces import Mask
 from embedding.shell.point_loads import point_load_vector
 
 
@@ -33,12 +34,10 @@ class System:
         self.domain, self.physics = domain, physics
         self.factors = Factors()
         self.unknowns = Unknowns(domain, physics)
-        self.motions = {
-            SIDES[face]: SideMotion(domain, SIDES[face], space) for face, space in self.unknowns.face_spaces.items()
-        }
+        self.motions = self._ambient_motions()
         self.lagrangian = Lagrangian(domain, physics, self.unknowns, self.motions, self.factors)
         self.form = form_of(self.lagrangian)
-        self.potential = PotentialSolve(self.lagrangian) if physics.field is not None else None
+        self.potential = PotentialSolve(self.lagrangian) if self.unknowns.potential is not None else None
         self.tractions = {face: FaceTractions(self.lagrangian, face) for face in self.unknowns.faces}
         if "axial" in self.unknowns:
             self.unknowns.field("axial").vec[0] = 1.0
@@ -50,14 +49,26 @@ class System:
         self._measured = self._linearised = self._displacement
         self.residual()  # NGSolve differentiates an interpolation wrongly until it has been evaluated once
 
+    def _ambient_motions(self) -> dict[str, AmbientMotion]:
+        """The motion of each side; around an open shell both sides are one space with one motion."""
+        faces = {SIDES[face]: space for face, space in self.unknowns.face_spaces.items()}
+        if self.domain.open and faces:
+            return dict.fromkeys(faces, AmbientMotion(self.domain, faces))
+        return {side: AmbientMotion(self.domain, {side: space}) for side, space in faces.items()}
+
+    @property
+    def _different_motions(self) -> list[AmbientMotion]:
+        return list({id(motion): motion for motion in self.motions.values()}.values())
+
     def place_faces(self) -> None:
         """Put the opened faces where the present displacement of the mid-surface has them."""
         values = {name: self.unknowns.field(name) for name in self.unknowns.names}
         director = self.lagrangian.kinematics(values).director
         for face in self.unknowns.opened:
-            sign = OFFSET[face]
-            y = self.unknowns.field(f"y_{face}")
-            y.Set(values["u"] + sign * self.physics.thickness * director, BND, definedon=self.domain.shell)
+            y = self.unknowns.field(self.unknowns.moved_by(face))
+            place = OFFSET[face] * self.physics.thickness * director
+            place = place if self.domain.open else values["u"] + place
+            y.Set(place, BND, definedon=self.domain.shell)
             y.vec.FV().NumPy()[~self.unknowns.face_free] = 0.0
 
     def load(self, mechanical: float, field: float, volume: float | None, pressure: float | None = None) -> None:
@@ -93,8 +104,11 @@ class System:
 
     def follow(self) -> bool:
         """Let the ambient's mesh follow the faces; False if elements would turn over."""
-        face_of = {side: self.lagrangian.face(face) for face, side in SIDES.items()}
-        return all(motion.follow(self.unknowns.field(face_of[side]).vec) for side, motion in self.motions.items())
+        places = {}
+        for face in self.unknowns.faces:
+            self.unknowns.displacement(face, self.tractions[face].displacement.vec)
+            places[SIDES[face]] = np.array(self.tractions[face].displacement.vec.FV().NumPy())
+        return all(motion.follow(places) for motion in self._different_motions)
 
     @property
     def _displacement(self) -> npt.NDArray[np.float64]:
@@ -108,6 +122,9 @@ class System:
         if self.physics.loads.point_forces:
             forces = self.factors.mechanical.Get() * self._point_forces
             residual.FV().NumPy()[self.unknowns.range("u")] -= forces
+        if self.potential is not None:
+            for name, number, charge in self.potential.charges_given():
+                residual.FV().NumPy()[self.unknowns.range(name).start + number] += charge
         return residual
 
     def _measure_rotations(self) -> None:
@@ -182,7 +199,7 @@ class System:
     @property
     def min_jacobian(self) -> float:
         """Smallest det F of the moving ambient (1 where there is none)."""
-        return min((motion.min_jacobian for motion in self.motions.values()), default=1.0)
+        return min((motion.min_jacobian for motion in self._different_motions), default=1.0)
 
     def displacement_norm(self, vector: Any) -> float:
         """Root mean square over the shell of the displacement part of a state-sized ``vector``, in shell sizes."""
@@ -193,7 +210,7 @@ class System:
 
     def save(self) -> Any:
         """A copy of the whole state, for :meth:`restore`."""
-        motions = {side: [v.copy() for v in motion.vectors()] for side, motion in self.motions.items()}
+        motions = [[v.copy() for v in motion.vectors()] for motion in self._different_motions]
         bending = self.unknowns.bending
         return np.array(self.unknowns.state.vec.FV().NumPy()), motions, bending.memory if bending is not None else None
 
@@ -204,59 +221,6 @@ class System:
         if self.unknowns.bending is not None:
             self.unknowns.bending.memory = memory
             self._measured = self._linearised = self._displacement
-        for side, motion in self.motions.items():
-            for vector, values in zip(motion.vectors(), motions[side], strict=True):
+        for motion, kept in zip(self._different_motions, motions, strict=True):
+            for vector, values in zip(motion.vectors(), kept, strict=True):
                 vector[:] = values
-
-
-class PotentialSolve:
-    """The potential alone on the present, frozen geometry: linear, definite, solved before every joint step."""
-
-    def __init__(self, lagrangian: Lagrangian) -> None:
-        unknowns = lagrangian.unknowns
-        if unknowns.potential is None:
-            raise RuntimeError("this scene has no field")
-        self._spaces, self._unknowns = unknowns.potential, unknowns
-        self._names = ["phi"] + ["jump"] * ("jump" in unknowns)
-        space = FESpace(self._spaces.spaces)
-        values: dict[str, Any] = {name: unknowns.field(name) for name in unknowns.names}
-        values.update(zip(self._names, space.TrialFunction(), strict=True))
-        self.form = BilinearForm(space, symmetric=True)
-        for term in lagrangian.field_energies(values):
-            self.form += Variation(term).Compile()
-        self._solver = DirectSolver(as_bits(self._spaces.free), symmetric=True)
-        self._space = space
-
-    def prescribe(self, factor: float) -> None:
-        """Write the electrodes' potentials into the state."""
-        fields = [self._unknowns.field(name).vec for name in self._names]
-        self._spaces.prescribe(fields[0], fields[1] if len(fields) > 1 else None, factor)
-
-    def energy(self) -> float:
-        """Field energy of the present state, dimensionless: both sides, the far field and the inside of the shell."""
-        return float(self.form.Energy(self._gather().vec))
-
-    def charge(self) -> float:
-        """Total charge on the shell, dimensionless: how the energy answers to a shift of its potential."""
-        state = self._gather()
-        residual = state.vec.CreateVector()
-        self.form.Apply(state.vec, residual)
-        on_shell = self._spaces.constant_on_shell()
-        return float(residual.FV().NumPy()[: len(on_shell)][on_shell].sum())
-
-    def solve(self) -> None:
-        """Solve for the potential and write it into the state."""
-        state = self._gather()
-        residual = state.vec.CreateVector()
-        self.form.Apply(state.vec, residual)
-        self.form.AssembleLinearization(state.vec)
-        self._solver.factor(self.form)
-        state.vec.data -= self._solver.solve(residual)
-        for name, component in zip(self._names, state.components, strict=True):
-            self._unknowns.field(name).vec.data = component.vec
-
-    def _gather(self) -> GridFunction:
-        state = GridFunction(self._space)
-        for name, component in zip(self._names, state.components, strict=True):
-            component.vec.data = self._unknowns.field(name).vec
-        return state

@@ -15,9 +15,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from ngsolve import BilinearForm, GridFunction, InnerProduct, Variation, sqrt
+from ngsolve import BilinearForm, Grad, GridFunction, InnerProduct, Variation, sqrt
 
-from embedding.coupling.lagrangian import Lagrangian
+from embedding.coupling.lagrangian import Lagrangian, Moved
 from embedding.coupling.unknowns import SIDES
 from embedding.geometry.spaces import as_bits
 from embedding.shell.kinematics import Kinematics
@@ -31,17 +31,18 @@ class FaceTractions:
     def __init__(self, lagrangian: Lagrangian, face: str) -> None:
         unknowns, domain = lagrangian.unknowns, lagrangian.domain
         self.face = face
-        self._domain = domain
-        if face in unknowns.opened:
-            self.tau, displacement = unknowns.field(f"tau_{face}"), unknowns.field(f"y_{face}")
-            self._recovery = None
-        else:
-            self.tau, displacement = GridFunction(unknowns.face_spaces[face]), unknowns.field("u")
-            self._recovery = NodalForces(lagrangian, face)
-        self.kinematics = Kinematics(domain.reduction, domain.normal, displacement, lagrangian.physics.axial_stretch)
+        self._domain, self._unknowns = domain, unknowns
+        opened = face in unknowns.opened
+        self.displacement = GridFunction(unknowns.trace.space)
+        self.tau = unknowns.field(f"tau_{face}") if opened else GridFunction(unknowns.face_spaces[face])
+        self._recovery = None if opened else NodalForces(lagrangian, face)
+        self.kinematics = Kinematics(
+            domain.reduction, domain.normal, self.displacement, lagrangian.physics.axial_stretch
+        )
 
     def refresh(self) -> None:
-        """Bring ``tau`` up to date with the state (nothing to do where it is an unknown)."""
+        """Bring the face's displacement and ``tau`` up to date with the state."""
+        self._unknowns.displacement(self.face, self.displacement.vec)
         if self._recovery is not None:
             self._recovery.recover(self.tau)
 
@@ -73,9 +74,8 @@ class NodalForces:
         space = unknowns.face_spaces[face]
         motion = space.TrialFunction()
         values = {name: unknowns.field(name) for name in unknowns.names if name in ("phi", "jump")}
-        values["face"] = motion
         self._force = BilinearForm(space)
-        for term in lagrangian.side_energies(values, SIDES[face], "face"):
+        for term in lagrangian.side_energies(values, SIDES[face], Moved(motion, Grad(motion))):
             self._force += Variation(-1 * term).Compile()
         mass = BilinearForm(space, symmetric=True)
         trial, test = space.TnT()

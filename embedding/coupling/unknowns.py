@@ -4,7 +4,8 @@
 name         unknown
 ===========  ===================================================================
 u            displacement of the mid-surface
-y_t, y_b     displacement of the top and bottom face (opened interface only)
+y_t, y_b     displacement of the top and bottom face (opened interface of a closed shell)
+o_t, o_b     displacement of a face from the mid-surface (opened interface of an open shell)
 moment       bending moments (on a curve: q, see shell/bending/curve.py)
 rotation     rotations of the edges of the surface's elements
 tau_t, tau_b multipliers of the faces' places, minus the face tractions
@@ -13,6 +14,9 @@ pressure     p_t - p_b under volume control
 axial        axial stretch of an infinite cylinder with free ends
 rigid        multipliers that hold free rigid motions
 ===========  ===================================================================
+
+The faces of an open shell meet in its rim, where o_t and o_b vanish. Those of a closed shell share nothing, and the
+mid-surface need not reach into the ambient: a third of the unknowns less in each element that touches the shell.
 """
 
 from __future__ import annotations
@@ -24,7 +28,7 @@ import numpy.typing as npt
 from ngsolve import BND, COUPLING_TYPE, FESpace, GridFunction, NumberSpace
 
 from embedding.ambient.motion import symmetry_components
-from embedding.ambient.potential import PotentialSpaces
+from embedding.ambient.potential import FilmPotential, PotentialSpaces
 from embedding.coupling.physics import Physics
 from embedding.geometry.domain import Domain
 from embedding.geometry.ends import directions, facets_named
@@ -41,23 +45,26 @@ class Unknowns:
 
     def __init__(self, domain: Domain, physics: Physics) -> None:
         self.domain = domain
-        self.faces = FACES if physics.field is not None else ()
-        self.opened = physics.opened if physics.field is not None else ()
+        field = physics.field
+        surrounded = field is not None and field.extent == "surroundings"
+        self.faces = FACES if surrounded else ()
+        self.opened = physics.opened if surrounded else ()
         self.potential = _potential(domain, physics)
         self.bending = _bending(domain, physics)
         self.trace = _displacement(domain, self._reach_of_u())
         self.face_free = self.trace.free  # supports hold the mid-surface; the faces only know symmetry
         _support(domain, self.trace, physics.supports)
         self._parts: dict[str, tuple[Any, Mask]] = {"u": (self.trace.space, self.trace.free)}
-        self.face_spaces = {face: self.trace.space for face in self.faces}
+        self.face_spaces = {face: self._face_space(face) for face in self.faces}
+        if domain.open:
+            rim = self.trace.on_shell(domain.rim_dofs(self.trace.scalar))
+            self.face_free = self.face_free & ~np.tile(rim, self.trace.components)
         for face in self.opened:
-            self.face_spaces[face] = self.trace.reaching(domain.materials(SIDES[face]))
-            self._parts[f"y_{face}"] = (self.face_spaces[face], self.face_free)
+            self._parts[self.moved_by(face)] = (self.face_spaces[face], self.face_free)
             self._parts[f"tau_{face}"] = (self.trace.space, self.face_free)
         if self.potential is not None:
-            masks = [self.potential.free_phi] + ([self.potential.jump.free] if self.potential.jump else [])
-            for name, space, mask in zip(("phi", "jump"), self.potential.spaces, masks, strict=False):
-                self._parts[name] = (space, mask)
+            for name, space in self.potential.spaces.items():
+                self._parts[name] = (space, self.potential.free[name])
         self._parts |= self.bending.parts() if self.bending is not None else {}
         numbers = ["pressure"] * physics.volume_controlled + ["axial"] * physics.axial_free
         self.rigid = free_rigid_motions(domain, self.trace, physics.clamped if physics.bending else ())
@@ -71,10 +78,29 @@ class Unknowns:
         self.trial = dict(zip(self.names, self.space.TrialFunction(), strict=True))
         self.test = dict(zip(self.names, self.space.TestFunction(), strict=True))
 
+    def moved_by(self, face: str) -> str:
+        """Name of the unknown that carries an opened ``face`` ("t" or "b"): its displacement, or that from u."""
+        return f"o_{face}" if self.domain.open else f"y_{face}"
+
+    def _face_space(self, face: str) -> Any:
+        """The space of what moves the elements on the side of ``face``."""
+        if face in self.opened or self.domain.open:
+            return self.trace.reaching(self.domain.materials(SIDES[face]))
+        return self.trace.space
+
     def _reach_of_u(self) -> str:
-        """u itself moves the ambient only where a face lies at the mid-surface."""
+        """u itself moves the ambient only where a face lies at the mid-surface, and around an open shell."""
         closed = [face for face in self.faces if face not in self.opened]
+        if self.faces and self.domain.open:
+            return ""
         return {0: "shell", 1: self.domain.materials(SIDES[closed[0]]) if closed else "", 2: ""}[len(closed)]
+
+    def displacement(self, face: str, out: Any) -> None:
+        """Write the present displacement of ``face`` into ``out``, a vector of the shell's displacement space."""
+        values = out.FV().NumPy()
+        values[:] = self.field("u").vec.FV().NumPy() if self.domain.open or face not in self.opened else 0.0
+        if face in self.opened:
+            values += self.field(self.moved_by(face)).vec.FV().NumPy()
 
     def _condense(self) -> Mask | None:
         """Mark the unknowns that are eliminated element by element; all others stay in the global system.
@@ -82,7 +108,7 @@ class Unknowns:
         With a field none are: beside volume elements NGSolve does not eliminate what belongs to surface elements.
         """
         name = self.bending.condensed if self.bending is not None else None
-        if name is None or self.potential is not None:
+        if name is None or self.faces:
             return None
         mask = np.zeros(self.space.ndof, bool)
         mask[self.range(name)] = True
@@ -115,11 +141,20 @@ class Unknowns:
         return {name: int(mask.sum()) for name, (_, mask) in self._parts.items()}
 
 
-def _potential(domain: Domain, physics: Physics) -> PotentialSpaces | None:
+def _potential(domain: Domain, physics: Physics) -> PotentialSpaces | FilmPotential | None:
     field = physics.field
-    if field is None:
+    if field is None or field.extent == "given":
         return None
-    return PotentialSpaces(domain, field.electrodes, field.grounded, field.applied, field.odd_planes)
+    if field.extent == "inside":
+        return FilmPotential(domain, field.electrodes)
+    return PotentialSpaces(
+        domain,
+        field.electrodes,
+        field.conductors,
+        grounded=field.grounded,
+        applied=field.applied,
+        odd_planes=field.odd_planes,
+    )
 
 
 def _bending(domain: Domain, physics: Physics) -> SurfaceBending | CurveBending | None:

@@ -17,6 +17,7 @@ from ngsolve import (
     CF,
     ET,
     H1,
+    VOL,
     BitArray,
     ElementId,
     FacetSurface,
@@ -117,6 +118,24 @@ class Domain:
         name = f"{side}_near"
         return name if name in self.mesh.GetMaterials() else self.materials(side)
 
+    def far(self, side: str) -> str | None:
+        """The material on ``side`` beyond the elements that touch the shell; None where all of it does."""
+        return side if side in self._filled and self.near(side) != self.materials(side) else None
+
+    @cached_property
+    def _filled(self) -> set[str]:
+        """Materials that have elements."""
+        return {element.mat for element in self.mesh.Elements(VOL)} if self.has_ambient else set()
+
+    @property
+    def open(self) -> bool:
+        """Has the shell a rim inside the ambient?"""
+        return False
+
+    def rim_dofs(self, space: Any) -> Mask:
+        """Unknowns of a scalar H1 ``space`` on the rims of the shell."""
+        return np.zeros(space.ndof, bool)
+
     @property
     def shell(self) -> Any:
         """The boundary region of the mid-surface."""
@@ -130,6 +149,14 @@ class Domain:
         for number in (i for i, face in enumerate(names) if face == name):
             bits.Set(number)
         return Region(self.mesh, BND, bits)
+
+    def covered(self, names: tuple[str, ...]) -> GridFunction:
+        """1 on the faces of a file with these names, 0 on the others."""
+        field = GridFunction(SurfaceL2(self.mesh, order=0, definedon=self.shell))
+        for name in names:
+            for element in self.face(name).Elements():
+                field.vec[field.space.GetDofNrs(ElementId(BND, element.nr))[0]] = 1.0
+        return field
 
     @cached_property
     def sign(self) -> Any:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from ngsolve import EDGE, FACE, H1, VERTEX, BitArray, Compress, Mesh, NodeId, VectorH1
+from ngsolve import EDGE, FACE, H1, VERTEX, BitArray, Compress, Mesh, NodeId, PlateauFESpace, VectorH1
 
 Mask = npt.NDArray[np.bool_]
 ON_PLANE = 1e-9
@@ -59,11 +59,15 @@ class TraceSpace:
 
     ``reach`` limits where the basis functions live besides the shell: "" in all elements that touch it, "shell"
     nowhere else, or a pattern of materials. Element matrices hold only unknowns that can matter there. The numbering
-    of the unknowns does not depend on the reach, so vectors can be copied between such spaces.
+    of the unknowns does not depend on the reach, so vectors can be copied between such spaces. On each region of
+    ``plateaus`` a scalar field has one value, one unknown.
     """
 
-    def __init__(self, mesh: Mesh, order: int, *, vector: bool = True, reach: str = "") -> None:
-        self.scalar = H1(mesh, order=order)
+    def __init__(
+        self, mesh: Mesh, order: int, *, vector: bool = True, reach: str = "", plateaus: Sequence[Any] = ()
+    ) -> None:
+        self._plateaus = list(plateaus)
+        self.scalar = self._flattened(H1(mesh, order=order))
         self.components = mesh.dim if vector else 1
         self._on_shell = scalar_mask(self.scalar, mesh.Boundaries("shell"))
         self._fixed = np.zeros((self.components, self.scalar.ndof), bool)
@@ -74,16 +78,32 @@ class TraceSpace:
         mesh, order = self.scalar.mesh, self.scalar.globalorder
         limits = {"": {}, "shell": {"definedon": mesh.Boundaries("shell")}}
         limit = limits.get(reach, {"definedon": mesh.Materials(reach)})
-        active = np.tile(scalar_mask(H1(mesh, order=order, **limit), mesh.Boundaries("shell")), self.components)
-        full = H1(mesh, order=order, **limit) if self.components == 1 else VectorH1(mesh, order=order, **limit)
+        limited = self._flattened(H1(mesh, order=order, **limit))
+        active = np.tile(scalar_mask(limited, mesh.Boundaries("shell")), self.components)
+        full = limited if self.components == 1 else VectorH1(mesh, order=order, **limit)
         space = Compress(full, as_bits(active))
         if space.ndof != self.components * int(self._on_shell.sum()):
             raise RuntimeError("the trace space lost unknowns: component blocks are not where they were expected")
         return space
 
+    def _flattened(self, space: Any) -> Any:
+        return PlateauFESpace(space, self._plateaus) if self._plateaus else space
+
+    def plateau_unknown(self, region: Any) -> int:
+        """The one unknown of a scalar field on a ``region`` of the plateaus, in the numbering of ``space``."""
+        return int(self.in_block(np.flatnonzero(scalar_mask(self.scalar, region))[:1].tolist())[0])
+
     def fix(self, component: int, mask: Mask) -> None:
         """Hold ``component`` on the unknowns of ``mask`` (length: unknowns of the scalar space)."""
         self._fixed[component] |= mask
+
+    def fix_unknown(self, number: int) -> None:
+        """Hold one unknown of a scalar field, in the numbering of ``space``."""
+        self._fixed[0][np.flatnonzero(self._on_shell)[number]] = True
+
+    def on_shell(self, mask: Mask) -> Mask:
+        """A ``mask`` over the scalar space as one over the block of one component."""
+        return np.asarray(mask[self._on_shell])
 
     def in_block(self, dofs: Sequence[int]) -> npt.NDArray[np.int64]:
         """Where unknowns of the scalar space that lie on the shell stand within the block of one component."""
@@ -93,10 +113,3 @@ class TraceSpace:
     def free(self) -> Mask:
         """Free unknowns, in the numbering of ``space``."""
         return ~np.concatenate([fixed[self._on_shell] for fixed in self._fixed])
-
-    def vertex_unknowns(self) -> Mask:
-        """Unknowns that are values at vertices: a constant field is 1 there and 0 elsewhere (scalar spaces)."""
-        mask = np.zeros(self.scalar.ndof, bool)
-        mask[: self.scalar.mesh.nv] = True
-        out: Any = np.tile(mask[self._on_shell], self.components)
-        return np.asarray(out, bool)

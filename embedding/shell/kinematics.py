@@ -87,7 +87,11 @@ class Kinematics:
         return 0.5 * (product + product.trans + self.gradient.trans * self.gradient)
 
     @cached_property
+    def spatial_gradient(self) -> Any:
+        """F-hat = F + lambda n (x) N, the deformation gradient of the incompressible body at the mid-surface."""
+        return self.deformation_gradient + OuterProduct(self.director, self.reference_normal)
+
+    @cached_property
     def inverse_transpose(self) -> Any:
-        """F-hat^{-T} with F-hat = F + lambda n (x) N: maps reference surface gradients to deformed ones."""
-        full = self.deformation_gradient + OuterProduct(self.director, self.reference_normal)
-        return Cof(full) / Det(full)
+        """F-hat^{-T}: maps reference surface gradients to deformed ones."""
+        return Cof(self.spatial_gradient) / Det(self.spatial_gradient)

@@ -111,4 +111,4 @@ def _has_sources(problem: Problem) -> bool:
     field = problem.system.physics.field
     if field is None:
         return False
-    return any((field.electrodes.top, field.electrodes.bottom, *field.applied))
+    return field.driven

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from embedding.ambient.potential import Electrodes
+from embedding.ambient.sources import Electrodes, Source
+from embedding.ambient.transmission import Matter
 from embedding.coupling.physics import FieldPhysics, Physics
 from embedding.coupling.system import System
 from embedding.errors import Problem as SceneProblem
@@ -120,10 +121,10 @@ def _field(scene: Scene, plan: Plan, scales: Scales) -> FieldPhysics | None:
         return None
     top, bottom = scene.faces.top, scene.faces.bottom
     electrodes = Electrodes(
-        top.voltage / scales.potential if top is not None else None,
-        bottom.voltage / scales.potential if bottom is not None else None,
+        Source(top.voltage / scales.potential) if top is not None else None,
+        Source(bottom.voltage / scales.potential) if bottom is not None else None,
     )
     electric = ambient.field == "electric"
     contrast = scene.shell.relative_permittivity if electric else scene.shell.relative_permeability
     applied = tuple(component / scales.field for component in plan.reduction.project(ambient.applied_field))
-    return FieldPhysics(electrodes, contrast, applied, ambient.outer == "grounded", plan.odd_planes)
+    return FieldPhysics(electrodes, Matter(contrast), applied, ambient.outer == "grounded", plan.odd_planes)

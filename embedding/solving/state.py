@@ -10,14 +10,12 @@ import numpy as np
 import numpy.typing as npt
 from ngsolve import CF, ET, Cof, Det, Grad, Id, IfPos, InnerProduct, IntegrationRule, sqrt, x
 
-from embedding.coupling.unknowns import SIDES
+from embedding.coupling.potential_solve import PotentialSolve
 from embedding.shell.kinematics import Kinematics
 from embedding.shell.loads import enclosed_volume
 from embedding.solving.events import Field
 from embedding.solving.outputs import output_fields
 from embedding.solving.problem import Problem
-
-FACE_OF = {side: face for face, side in SIDES.items()}
 
 
 class State:
@@ -32,8 +30,7 @@ class State:
 
     # -- kinematics that can be evaluated anywhere on the shell, the axis included
 
-    def _kinematics(self, displacement: str) -> Kinematics:
-        u = self._values[displacement]
+    def _kinematics(self, u: Any) -> Kinematics:
         plain = Kinematics(self._domain.reduction, self._domain.normal, u, self._axial)
         if self._domain.reduction.name != "axisymmetric":
             return plain
@@ -48,7 +45,7 @@ class State:
     @cached_property
     def mid_surface(self) -> Kinematics:
         """Kinematics of the deformed mid-surface."""
-        return self._kinematics("u")
+        return self._kinematics(self._values["u"])
 
     @cached_property
     def principal_stretches(self) -> tuple[Any, Any]:
@@ -69,8 +66,8 @@ class State:
         """p_t and p_b, the total pressures on the true faces, dimensionless."""
         top, bottom = self._mechanical_pressures()
         for face, traction in self._system.tractions.items():
-            kinematics = self._kinematics(self._system.lagrangian.face(face))
-            pressure = traction.pressure(kinematics)
+            traction.refresh()
+            pressure = traction.pressure(self._kinematics(traction.displacement))
             top, bottom = (top + pressure, bottom) if face == "t" else (top, bottom + pressure)
         return CF(top), CF(bottom)
 
@@ -112,7 +109,7 @@ class State:
             for name, moment in zip(("moment_major", "moment_minor"), moments, strict=True):
                 out.append(Field("shell", name, "N", scales.force * moment))
         for face, traction in self._system.tractions.items():
-            kinematics = self._kinematics(self._system.lagrangian.face(face))
+            kinematics = self._kinematics(traction.displacement)
             out.append(Field("shell", f"t_{face}", "Pa", scales.stress * traction.tangential(kinematics)))
         out += self._asked_for(top, bottom)
         for side in self._system.motions:
@@ -127,15 +124,14 @@ class State:
 
     def _ambient_fields(self, side: str) -> list[Field]:
         scales = self._scales
-        motion = self._values[self._system.lagrangian.face(FACE_OF[side])]
-        w = self._system.motions[side].w
+        motion, w = self._system.motions[side].y[side], self._system.motions[side].w
         F = Id(self._domain.mesh.dim) + Grad(motion) + Grad(w)
         gradient = self._system.lagrangian.side_potential_gradient(side, self._values)
         strength = -1 * (Cof(F) * gradient) / Det(F)
         potential = self._values["phi"]
-        if "jump" in self._values and self._unknowns.potential is not None:
-            lifted = self._unknowns.potential.electrodes.lifted == side
-            potential = potential + self._values["jump"] if lifted else potential
+        field = self._system.physics.field
+        if "jump" in self._values and field is not None and field.electrodes.lifted == side:
+            potential = potential + self._values["jump"]
         electric = self.problem.scene.ambient is None or self.problem.scene.ambient.field == "electric"
         name, units = ("E", ("V", "V/m")) if electric else ("H", ("A", "A/m"))
         return [
@@ -216,18 +212,30 @@ class State:
         return self._domain.shell_integral(enclosed_volume(self._domain, kinematics, self._values["u"]))
 
     def _field_scalars(self, energy: float) -> dict[str, float]:
-        potential = self._system.potential
-        if potential is None:
+        potential, physics = self._system.potential, self._system.physics.field
+        if potential is None or physics is None:
             return {}
-        scales, physics = self._scales, self._system.physics.field
-        named = {"min_jacobian": self._system.min_jacobian}
-        if physics is not None and physics.electrodes.base is not None:
-            strength = self._system.factors.field.Get()
-            named["voltage"] = scales.potential * strength * physics.electrodes.base
-            named["charge"] = scales.flux_density * scales.length ** (self._lengths - 1) * potential.charge()
-        if physics is not None and not any(physics.applied):
+        named = {"min_jacobian": self._system.min_jacobian} if self._system.motions else {}
+        named |= self._conductors(potential)
+        if not any(physics.applied) and physics.varying is None:
             named["field_energy"] = energy * potential.energy()
-        force = scales.stress * scales.length ** (self._lengths - 1)
+        return named | self._forces()
+
+    def _conductors(self, potential: PotentialSolve) -> dict[str, float]:
+        """Voltages and charges: of the shell (base voltage, charge of both faces), of its film, of other bodies."""
+        volts, coulombs = self._scales.potential, self._scales.flux_density * self._scales.length ** (self._lengths - 1)
+        named: dict[str, float] = {}
+        for conductor in potential.conductors:
+            suffix = {"shell": "", "jump": "_jump"}.get(conductor.label, f"_{conductor.label}")
+            named[f"voltage{suffix}"] = volts * potential.voltage(conductor)
+            named[f"charge{suffix}"] = coulombs * potential.charge(conductor)
+        return named
+
+    def _forces(self) -> dict[str, float]:
+        if not self._system.tractions:
+            return {}
+        named = {}
+        force = self._scales.stress * self._scales.length ** (self._lengths - 1)
         totals = np.sum([traction.force() for traction in self._system.tractions.values()], axis=0)
         for axis, total in zip(self._domain.reduction.axes, totals, strict=True):
             if axis != "r" and axis not in self._domain.reduction.planes:

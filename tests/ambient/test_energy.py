@@ -11,7 +11,7 @@ from ngsolve import CF, H1, BilinearForm, FESpace, Grad, GridFunction, Integrate
 
 from embedding.ambient.energy import far_field_energy, field_energy
 from embedding.ambient.motion import symmetry_components
-from embedding.ambient.transmission import shell_field_energy
+from embedding.ambient.transmission import Matter, shell_field_energy
 from embedding.geometry.domain import Domain
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.spaces import Mask, TraceSpace, plane_mask, scalar_mask
@@ -93,7 +93,7 @@ def test_field_energy_inside_the_shell(name: str) -> None:
     kinematics = Kinematics(domain.reduction, domain.normal, u, 1.2 if "ring" in name else 1.0)
     mean_gradient = surface_gradient(potential) + 0.5 * surface_gradient(jump)
     form = BilinearForm(space)
-    density = shell_field_energy(kinematics, 0.1, 4.0, jump.Trace(), mean_gradient)
+    density = shell_field_energy(kinematics, 0.1, Matter(4.0), jump.Trace(), mean_gradient)
     form += Variation(domain.reduction.measure * density * domain.surface())
     state = GridFunction(space)
     set_on_shell(state.components[0], smooth(domain), displacements.free, domain)
@@ -117,7 +117,7 @@ def test_a_capacitor_between_the_faces(name: str, stretch: float) -> None:
     set_on_shell(u, (stretch - 1) * domain.reduction.position, np.ones(len(displacements.free), bool), domain)
     kinematics = Kinematics(domain.reduction, domain.normal, u)
     zero = CF((0.0,) * domain.mesh.dim)
-    energy = domain.shell_integral(shell_field_energy(kinematics, 0.1, 4.0, CF(0.3), zero))
+    energy = domain.shell_integral(shell_field_energy(kinematics, 0.1, Matter(4.0), CF(0.3), zero))
     area, grown = (2 * math.pi, stretch) if "ring" in name else (4 * math.pi, stretch**2)
     assert energy == pytest.approx(0.5 * 4.0 * 0.3**2 / (0.1 / grown) * area * grown, rel=1e-4)
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from ngsolve import BND, CF, GridFunction
 
-from embedding.ambient.motion import GUARD, SideMotion
+from embedding.ambient.motion import GUARD, AmbientMotion
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import Mask, TraceSpace, plane_mask, scalar_mask
 from tests.forms import Array, body, set_on_shell
@@ -16,18 +16,23 @@ from tests.forms import Array, body, set_on_shell
 BODIES = ("octant", "axisymmetric sphere", "quarter ring", "ring")
 
 
-def moving(name: str, side: str = "outside", size: float = 0.4) -> tuple[Domain, SideMotion, Any, Mask]:
+def moving(name: str, side: str = "outside", size: float = 0.4) -> tuple[Domain, AmbientMotion, Any, Mask]:
     """A domain, the motion of one side, a face displacement to set, and its free unknowns."""
     domain = body(name, size, 2, radius=4.0)
     trace = TraceSpace(domain.mesh, 2, reach=domain.materials(side))
-    return domain, SideMotion(domain, side, trace.space), GridFunction(trace.space), np.ones(len(trace.free), bool)
+    return domain, AmbientMotion(domain, {side: trace.space}), GridFunction(trace.space), np.ones(len(trace.free), bool)
 
 
 def grown(domain: Domain, factor: float) -> Any:
     return (factor - 1) * domain.reduction.position
 
 
-def state_of(motion: SideMotion) -> Array:
+def moved_to(face: Any, motion: AmbientMotion) -> dict[str, Array]:
+    """The displacement of the one side that ``motion`` has."""
+    return {side: np.array(face.vec.FV().NumPy()) for side in motion.y}
+
+
+def state_of(motion: AmbientMotion) -> Array:
     return np.concatenate([np.array(vector) for vector in motion.vectors()])
 
 
@@ -38,9 +43,9 @@ def test_elements_keep_their_sense(name: str, side: str) -> None:
     assert motion.min_jacobian == pytest.approx(1.0)
     for factor in (1.1, 1.3, 1.6, 0.8):
         set_on_shell(face, grown(domain, factor), free, domain)
-        assert motion.follow(face.vec)
+        assert motion.follow(moved_to(face, motion))
         assert motion.min_jacobian > GUARD
-        assert np.abs(motion.y.vec.FV().NumPy() - face.vec.FV().NumPy()).max() < 1e-14
+        assert np.abs(motion.y[side].vec.FV().NumPy() - face.vec.FV().NumPy()).max() < 1e-14
 
 
 @pytest.mark.parametrize("name", BODIES)
@@ -48,10 +53,10 @@ def test_an_impossible_motion_is_refused_and_nothing_moves(name: str) -> None:
     """The face is asked to go beyond the outer boundary."""
     domain, motion, face, free = moving(name)
     set_on_shell(face, grown(domain, 1.2), free, domain)
-    assert motion.follow(face.vec)
+    assert motion.follow(moved_to(face, motion))
     before = state_of(motion)
     set_on_shell(face, grown(domain, 4.5), free, domain)
-    assert not motion.follow(face.vec)
+    assert not motion.follow(moved_to(face, motion))
     assert np.array_equal(state_of(motion), before)
 
 
@@ -59,14 +64,14 @@ def test_a_face_that_hardly_moves_leaves_the_interior_at_rest() -> None:
     """Newton's method is quadratic only where w stands still: below a thousandth of the mesh size it does."""
     domain, motion, face, free = moving("octant")
     set_on_shell(face, grown(domain, 1.2), free, domain)
-    assert motion.follow(face.vec)
+    assert motion.follow(moved_to(face, motion))
     interior = motion.w.vec.FV().NumPy().copy()
     set_on_shell(face, grown(domain, 1.2 + 1e-4), free, domain)
-    assert motion.follow(face.vec)
+    assert motion.follow(moved_to(face, motion))
     assert np.array_equal(motion.w.vec.FV().NumPy(), interior)
-    assert np.array_equal(motion.y.vec.FV().NumPy(), face.vec.FV().NumPy())
+    assert np.array_equal(motion.y["outside"].vec.FV().NumPy(), face.vec.FV().NumPy())
     set_on_shell(face, grown(domain, 1.25), free, domain)
-    assert motion.follow(face.vec)
+    assert motion.follow(moved_to(face, motion))
     assert not np.array_equal(motion.w.vec.FV().NumPy(), interior)
 
 
@@ -75,7 +80,7 @@ def test_boundaries_and_planes_are_kept(name: str) -> None:
     """w is zero on the shell and the outer boundary, and slides along mirror planes and the axis."""
     domain, motion, face, free = moving(name)
     set_on_shell(face, grown(domain, 1.4), free, domain)
-    assert motion.follow(face.vec)
+    assert motion.follow(moved_to(face, motion))
     w, dim = motion.w, domain.mesh.dim
     scalar = w.space.components[0]
     values = w.vec.FV().NumPy().reshape(dim, -1)
@@ -92,17 +97,17 @@ def test_a_rigid_shift_of_the_ring_keeps_it_round() -> None:
     domain, motion, face, free = moving("ring")
     for shift in (0.2, 0.5, 0.9):
         face.Set(CF((shift, 0.3 * shift)), BND, definedon=domain.shell)
-        assert motion.follow(face.vec)
+        assert motion.follow(moved_to(face, motion))
     assert motion.min_jacobian > GUARD
 
 
 def test_a_state_can_be_put_back() -> None:
     domain, motion, face, free = moving("octant")
     set_on_shell(face, grown(domain, 1.2), free, domain)
-    assert motion.follow(face.vec)
+    assert motion.follow(moved_to(face, motion))
     saved, smallest = [vector.copy() for vector in motion.vectors()], motion.min_jacobian
     set_on_shell(face, grown(domain, 1.4), free, domain)
-    assert motion.follow(face.vec)
+    assert motion.follow(moved_to(face, motion))
     for vector, values in zip(motion.vectors(), saved, strict=True):
         vector[:] = values
     assert motion.min_jacobian == smallest
@@ -114,5 +119,5 @@ def test_a_balloon_may_grow_to_twice_its_size(name: str) -> None:
     domain, motion, face, free = moving(name)
     for factor in np.linspace(1.1, 2.0, 10):
         set_on_shell(face, grown(domain, float(factor)), free, domain)
-        assert motion.follow(face.vec)
+        assert motion.follow(moved_to(face, motion))
     assert motion.min_jacobian > 0.2

@@ -79,11 +79,15 @@ def test_components_are_held_one_by_one() -> None:
     assert shares == pytest.approx([1.0, 0.0, 1.0], abs=1e-10)
 
 
-def test_values_at_vertices() -> None:
-    """A constant is 1 on the unknowns of the vertices and 0 on all others."""
+@pytest.mark.parametrize("reach", ["", "outside.*"])
+def test_one_value_on_a_plateau(reach: str) -> None:
+    """The one unknown of a plateau that covers the shell: a constant."""
     domain = body("octant", 0.5, 3, radius=3.0)
-    trace = TraceSpace(domain.mesh, 3, vector=False)
+    trace = TraceSpace(domain.mesh, 3, vector=False, reach=reach, plateaus=[domain.shell])
+    assert trace.free.sum() == 1
     field = GridFunction(trace.space)
-    field.vec.FV().NumPy()[:] = trace.vertex_unknowns()
+    field.vec[trace.plateau_unknown(domain.shell)] = 1.0
     gap = field - 1.0
     assert domain.shell_integral(gap * gap) < 1e-24
+    trace.fix_unknown(trace.plateau_unknown(domain.shell))
+    assert not trace.free.any()

@@ -1,0 +1,101 @@
+"""The potential alone on the present, frozen geometry, solved before every joint step; charges, voltages and energy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from ngsolve import BilinearForm, FESpace, GridFunction, Variation
+
+from embedding.ambient.potential import Conductor
+from embedding.coupling.lagrangian import Lagrangian
+from embedding.coupling.linear import DirectSolver
+from embedding.geometry.spaces import as_bits
+
+ENOUGH, MOST_STEPS = 1e-13, 40
+"""Newton's method for a saturating shell ends when the energy of a step is this part of the field's, or gives up; where
+the material is linear one step is all."""
+
+
+class PotentialSolve:
+    """Minimises the field's co-energy, less the charges times their potentials, over phi and jump: definite, and linear
+    unless the material saturates."""
+
+    def __init__(self, lagrangian: Lagrangian) -> None:
+        unknowns, field = lagrangian.unknowns, lagrangian.physics.field
+        if unknowns.potential is None or field is None:
+            raise RuntimeError("this scene has no potential to solve for")
+        self._spaces, self._unknowns = unknowns.potential, unknowns
+        self._field_factor = lagrangian.factors.field
+        self._names = list(self._spaces.spaces)
+        self._linear = field.matter.saturation is None
+        space = FESpace(list(self._spaces.spaces.values()))
+        values: dict[str, Any] = {name: unknowns.field(name) for name in unknowns.names}
+        trial = space.TrialFunction()
+        values.update(zip(self._names, trial, strict=True))
+        self.form = BilinearForm(space, symmetric=True)
+        for term in lagrangian.field_energies(values):
+            self.form += Variation(term).Compile()
+        self._free = np.concatenate([self._spaces.free[name] for name in self._names])
+        self._solver = DirectSolver(as_bits(self._free), symmetric=True)
+        self._state = GridFunction(space)
+        sizes = [component.vec.size for component in self._state.components]
+        self._starts = dict(zip(self._names, np.concatenate([[0], np.cumsum(sizes)[:-1]]).tolist(), strict=True))
+
+    @property
+    def conductors(self) -> list[Conductor]:
+        """What is held at a potential or carries a charge."""
+        return self._spaces.conductors
+
+    def prescribe(self, factor: float) -> None:
+        """Write the given potentials into the state."""
+        self._spaces.prescribe({name: self._unknowns.field(name).vec for name in self._names}, factor)
+
+    def charges_given(self) -> list[tuple[str, int, float]]:
+        """(component, unknown, charge at the present load) of every conductor whose charge is given."""
+        factor = self._field_factor.Get()
+        return [(c.name, c.number, factor * c.charge) for c in self.conductors if c.voltage is None and c.charge]
+
+    def energy(self) -> float:
+        """Field co-energy of the present state, dimensionless: every side, the far field, the inside of the shell."""
+        return float(self.form.Energy(self._gather().vec))
+
+    def voltage(self, conductor: Conductor) -> float:
+        """The present potential of a conductor (of "jump": of the lifted face over the base)."""
+        return float(self._unknowns.field(conductor.name).vec[conductor.number])
+
+    def charge(self, conductor: Conductor) -> float:
+        """The charge that answers to the potential of ``conductor``: how the co-energy changes with it. For the shell's
+        base that is the charge of both faces."""
+        state = self._gather()
+        residual = state.vec.CreateVector()
+        self.form.Apply(state.vec, residual)
+        return float(residual[self._starts[conductor.name] + conductor.number])
+
+    def solve(self) -> None:
+        """Solve for the potential and write it into the state."""
+        if not self._free.any():
+            return
+        state = self._gather()
+        residual = state.vec.CreateVector()
+        for _ in range(1 if self._linear else MOST_STEPS):
+            self.form.Apply(state.vec, residual)
+            for name, number, charge in self.charges_given():
+                residual[self._starts[name] + number] -= charge
+            self.form.AssembleLinearization(state.vec)
+            self._solver.factor(self.form)
+            step = self._solver.solve(residual)
+            state.vec.data -= step
+            if not self._linear and self._small(step, residual, state):
+                break
+        for name, component in zip(self._names, state.components, strict=True):
+            self._unknowns.field(name).vec.data = component.vec
+
+    def _small(self, step: Any, residual: Any, state: GridFunction) -> bool:
+        work = float(np.dot(step.FV().NumPy()[self._free], residual.FV().NumPy()[self._free]))
+        return abs(work) <= ENOUGH * abs(float(self.form.Energy(state.vec)))
+
+    def _gather(self) -> GridFunction:
+        for name, component in zip(self._names, self._state.components, strict=True):
+            component.vec.data = self._unknowns.field(name).vec
+        return self._state
