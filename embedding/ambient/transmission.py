@@ -57,15 +57,22 @@ class Matter:
         return limit**2 / chi * (sqrt(1 + chi**2 * field_squared / limit**2) - 1)
 
 
-def shell_field_energy(kinematics: Kinematics, thickness: Any, matter: Matter, jump: Any, mean_gradient: Any) -> Any:
+def shell_field_energy(
+    kinematics: Kinematics, thickness: Any, matter: Matter, jump: Any, mean_gradient: Any, given: Any | None = None
+) -> Any:
     """Field co-energy inside the shell per reference area.
 
-    ``jump`` is Phi_t - Phi_b and ``mean_gradient`` the reference surface gradient of (Phi_t + Phi_b) / 2.
+    ``jump`` is Phi_t - Phi_b and ``mean_gradient`` the reference surface gradient of (Phi_t + Phi_b) / 2. A ``given``
+    field (at the present place) comes on top of that of the potential.
     """
     tangential = kinematics.inverse_transpose * mean_gradient
-    normal_squared = jump * jump * kinematics.surface_stretch_squared / thickness**2
     pulled_back = -1 / thickness * jump * kinematics.reference_normal - mean_gradient
-    return thickness * matter.coenergy(normal_squared + InnerProduct(tangential, tangential), pulled_back)
+    if given is None:
+        normal_squared = jump * jump * kinematics.surface_stretch_squared / thickness**2
+        return thickness * matter.coenergy(normal_squared + InnerProduct(tangential, tangential), pulled_back)
+    field = given - 1 / thickness * jump * kinematics.area_vector - tangential
+    pulled_back = pulled_back + kinematics.spatial_gradient.trans * given
+    return thickness * matter.coenergy(InnerProduct(field, field), pulled_back)
 
 
 def given_field_energy(kinematics: Kinematics, thickness: Any, matter: Matter, strength: Any) -> Any:

@@ -14,16 +14,14 @@ forces on the potentials V of their conductors, which the system adds. Source: t
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
-from ngsolve import CF, BilinearForm, Grad, GridFunction, InnerProduct, Parameter, Variation
+from ngsolve import CF, BilinearForm, GridFunction, InnerProduct, Parameter, Variation
 
-from embedding.ambient.energy import far_field_energy, field_energy
 from embedding.ambient.motion import AmbientMotion
-from embedding.ambient.transmission import given_field_energy, shell_field_energy
-from embedding.coupling.physics import FieldPhysics, Physics, Solid
-from embedding.coupling.unknowns import SIDES, Unknowns
+from embedding.coupling.field import FieldEnergies
+from embedding.coupling.physics import Physics
+from embedding.coupling.unknowns import Unknowns
 from embedding.geometry.domain import Domain
 from embedding.shell.edges import edge_residual
 from embedding.shell.kinematics import Kinematics, surface_gradient
@@ -54,14 +52,6 @@ class Factors:
         self.proximal = Parameter(0.0)
 
 
-@dataclass(frozen=True)
-class Moved:
-    """A motion of the ambient and its reference gradient."""
-
-    value: Any
-    gradient: Any
-
-
 class Lagrangian:
     """Builds the forms of a coupled problem on ``unknowns``; symmetric unless a load has no potential."""
 
@@ -74,8 +64,13 @@ class Lagrangian:
         factors: Factors,
     ) -> None:
         self.domain, self.physics, self.unknowns = domain, physics, unknowns
-        self.motions, self.factors = motions, factors
+        self.factors = factors
         self.measure = domain.reduction.measure
+        self.field: FieldEnergies | None = None
+        if physics.field is not None:
+            self.field = FieldEnergies(
+                domain, physics, physics.field, unknowns, motions, factors.field, self.kinematics
+            )
         self.membrane: Membrane | None = None
         if unknowns.bending is not None:
             update = GridFunction(unknowns.trace.space)
@@ -91,105 +86,9 @@ class Lagrangian:
         """Kinematics of the mid-surface (or of a face) for the unknowns ``values``."""
         return Kinematics(self.domain.reduction, self.domain.normal, values[displacement], self.axial(values))
 
-    def motion_of(self, face: str, values: dict[str, Any]) -> Moved:
-        """What moves the elements beside ``face`` ("t" or "b"), without the ambient's interior motion."""
-        names = [] if face in self.unknowns.opened and not self.domain.open else ["u"]
-        names += [self.unknowns.moved_by(face)] if face in self.unknowns.opened else []
-        return Moved(
-            sum((values[name] for name in names[1:]), values[names[0]]),
-            sum((Grad(values[name]) for name in names[1:]), Grad(values[names[0]])),
-        )
-
-    def side_potential_gradient(self, side: str, values: dict[str, Any]) -> Any:
-        """Reference gradient of the potential on ``side`` in the elements that touch the shell."""
-        gradient = Grad(values["phi"])
-        lifted = "jump" in values and side == self._field.electrodes.lifted
-        return gradient + Grad(values["jump"]) if lifted else gradient
-
-    def side_energies(self, values: dict[str, Any], side: str, face: Moved) -> list[Any]:
-        """Field energy of one side: where the shell's motion reaches, and beyond."""
-        w, domain = self.motions[side].w, self.domain
-        liquid = self._field.liquids.get(side, 1.0)
-        moved, slope = face.value + w, face.gradient + Grad(w)
-        gradient = self.side_potential_gradient(side, values)
-        near = field_energy(domain.reduction, moved, slope, gradient, self.physics.axial_stretch)
-        terms = [liquid * near * domain.volume(domain.near(side))]
-        far = domain.far(side)
-        if far is not None:
-            energy = field_energy(domain.reduction, w, Grad(w), Grad(values["phi"]), self.physics.axial_stretch)
-            terms.append(liquid * energy * domain.volume(far))
-        return terms
-
     def field_energies(self, values: dict[str, Any]) -> list[Any]:
-        """Every term of the field's co-energy: both sides, what lies beyond, other bodies, the inside of the shell."""
-        field = self.physics.field
-        if field is None:
-            return []
-        if field.extent == "given":
-            return [self._in_given_field(values) * self.domain.surface()]
-        if field.extent == "inside":
-            return [self._film(values) * self.domain.surface()]
-        terms = []
-        for name, side in SIDES.items():
-            terms += self.side_energies(values, side, self.motion_of(name, values))
-        terms += self._far_energies(values) + self._solid_energies(values)
-        if "jump" in values and (field.matter.contrast is not None or field.matter.remanence is not None):
-            terms.append(self._inside_shell(values) * self.domain.surface())
-        return terms
-
-    def _far_energies(self, values: dict[str, Any]) -> list[Any]:
-        field, domain = self._field, self.domain
-        if field.grounded:
-            return []
-        applied = self.factors.field * CF(field.applied)
-        energy = far_field_energy(domain.reduction, values["phi"], applied, domain.sizes.radius)
-        weight = self.physics.axial_stretch * field.liquids.get("outside", 1.0)
-        return [weight * energy * domain.surface("outer")]
-
-    def _solid_energies(self, values: dict[str, Any]) -> list[Any]:
-        """Bodies with a field inside, at rest; a magnet's strength follows the field's factor."""
-        terms = []
-        for number, body in enumerate(self._field.bodies):
-            if isinstance(body, Solid):
-                field = -1 * Grad(values["phi"])
-                energy = 0.5 * body.contrast * InnerProduct(field, field)
-                if body.remanence is not None:
-                    energy = energy + self.factors.field * InnerProduct(CF(body.remanence), field)
-                terms.append(self.measure * self.physics.axial_stretch * energy * self.domain.volume(f"magnet{number}"))
-        return terms
-
-    def _inside_shell(self, values: dict[str, Any]) -> Any:
-        sign = 1.0 if self._field.electrodes.lifted == "outside" else -1.0
-        half_jump = 0.5 * surface_gradient(values["jump"])
-        mean_gradient = surface_gradient(values["phi"]) + half_jump
-        return self._coenergy(values, sign * _trace(values["jump"]), mean_gradient)
-
-    def _film(self, values: dict[str, Any]) -> Any:
-        """The field between two electrodes, constant over the surface they cover."""
-        electrodes = self._field.electrodes
-        covered = self.domain.covered(electrodes.where) if electrodes.where else 1.0
-        sign = 1.0 if electrodes.lifted == "outside" else -1.0
-        return self._coenergy(values, sign * covered * values["jump"], CF((0.0,) * self.domain.mesh.dim))
-
-    def _coenergy(self, values: dict[str, Any], jump: Any, mean_gradient: Any) -> Any:
-        matter, thickness = self._field.matter, self.physics.thickness
-        return self.measure * shell_field_energy(self.kinematics(values), thickness, matter, jump, mean_gradient)
-
-    def _in_given_field(self, values: dict[str, Any]) -> Any:
-        field, kinematics = self._field, self.kinematics(values)
-        place = self.domain.reduction.position + _trace(values["u"])
-        strength = CF(field.applied) if field.varying is None else CF(field.applied) + field.varying(place)
-        matter = field.matter
-        return self.measure * given_field_energy(
-            kinematics, self.physics.thickness, matter, self.factors.field * strength
-        )
-
-    @property
-    def _field(self) -> FieldPhysics:
-        field = self.physics.field
-        if field is None:
-            raise RuntimeError("this scene has no field")
-        return field
+        """Every term of the field's co-energy; empty without a field."""
+        return [] if self.field is None else self.field.energies(values)
 
     # -- the forms
 

@@ -17,7 +17,8 @@ from typing import Any
 
 from ngsolve import BilinearForm, Grad, GridFunction, InnerProduct, Variation, sqrt
 
-from embedding.coupling.lagrangian import Lagrangian, Moved
+from embedding.coupling.field import Moved
+from embedding.coupling.lagrangian import Lagrangian
 from embedding.coupling.unknowns import SIDES
 from embedding.geometry.spaces import as_bits
 from embedding.shell.kinematics import Kinematics
@@ -70,12 +71,14 @@ class NodalForces:
     """Traction of one side of a closed interface: nodal forces of the side's field energy over the mass matrix."""
 
     def __init__(self, lagrangian: Lagrangian, face: str) -> None:
-        unknowns, domain = lagrangian.unknowns, lagrangian.domain
+        unknowns, domain, field = lagrangian.unknowns, lagrangian.domain, lagrangian.field
+        if field is None:
+            raise RuntimeError("this scene has no field")
         space = unknowns.face_spaces[face]
         motion = space.TrialFunction()
         values = {name: unknowns.field(name) for name in unknowns.names if name in ("phi", "jump")}
         self._force = BilinearForm(space)
-        for term in lagrangian.side_energies(values, SIDES[face], Moved(motion, Grad(motion))):
+        for term in field.side_energies(values, SIDES[face], Moved(motion, Grad(motion))):
             self._force += Variation(-1 * term).Compile()
         mass = BilinearForm(space, symmetric=True)
         trial, test = space.TnT()

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from ngsolve import CF, ET, Cof, Det, Grad, Id, IfPos, InnerProduct, IntegrationRule, sqrt, x
+from ngsolve import CF, ET, Grad, Id, IfPos, InnerProduct, IntegrationRule, sqrt, x
 
+from embedding.coupling.field import FieldEnergies
 from embedding.coupling.potential_solve import PotentialSolve
 from embedding.shell.kinematics import Kinematics
 from embedding.shell.loads import enclosed_volume
@@ -126,11 +127,9 @@ class State:
         scales = self._scales
         motion, w = self._system.motions[side].y[side], self._system.motions[side].w
         F = Id(self._domain.mesh.dim) + Grad(motion) + Grad(w)
-        gradient = self._system.lagrangian.side_potential_gradient(side, self._values)
-        strength = -1 * (Cof(F) * gradient) / Det(F)
+        strength = self._field.strength(side, self._values, motion + w, F)
         potential = self._values["phi"]
-        field = self._system.physics.field
-        if "jump" in self._values and field is not None and field.electrodes.lifted == side:
+        if self._field.lifts(side, self._values):
             potential = potential + self._values["jump"]
         electric = self.problem.scene.ambient is None or self.problem.scene.ambient.field == "electric"
         name, units = ("E", ("V", "V/m")) if electric else ("H", ("A", "A/m"))
@@ -139,6 +138,13 @@ class State:
             Field(side, "phi", units[0], scales.potential * potential),
             Field(side, name, units[1], scales.field * strength),
         ]
+
+    @property
+    def _field(self) -> FieldEnergies:
+        field = self._system.lagrangian.field
+        if field is None:
+            raise RuntimeError("this scene has no field")
+        return field
 
     def vectors(self) -> dict[str, npt.NDArray[np.float64]]:
         """Copies of all unknowns, by name: what a restart needs."""

@@ -1,0 +1,174 @@
+"""The field's part of the Lagrangian: its co-energy, term by term, for the joint form and for the potential alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from ngsolve import CF, Cof, Det, Grad, InnerProduct, Parameter
+
+from embedding.ambient.energy import far_field_energy, field_energy
+from embedding.ambient.motion import AmbientMotion
+from embedding.ambient.reduced import Face, face_energy, given_energy
+from embedding.ambient.transmission import given_field_energy, shell_field_energy
+from embedding.coupling.physics import FieldPhysics, Physics, Solid
+from embedding.coupling.unknowns import SIDES, Unknowns
+from embedding.geometry.domain import Domain
+from embedding.shell.kinematics import Kinematics, surface_gradient
+
+
+@dataclass(frozen=True)
+class Moved:
+    """A motion of the ambient and its reference gradient."""
+
+    value: Any
+    gradient: Any
+
+
+class FieldEnergies:
+    """Co-energies of the ``field`` for values of the unknowns by name (trial functions or grid functions)."""
+
+    def __init__(
+        self,
+        domain: Domain,
+        physics: Physics,
+        field: FieldPhysics,
+        unknowns: Unknowns,
+        motions: dict[str, AmbientMotion],
+        factor: Parameter,
+        kinematics: Callable[[dict[str, Any]], Kinematics],
+    ) -> None:
+        self.domain, self.field, self.unknowns, self.motions = domain, field, unknowns, motions
+        self.thickness, self.axial = physics.thickness, physics.axial_stretch
+        self.measure = domain.reduction.measure
+        self._factor, self._kinematics = factor, kinematics
+
+    def motion_of(self, face: str, values: dict[str, Any]) -> Moved:
+        """What moves the elements beside ``face`` ("t" or "b"), without the ambient's interior motion."""
+        names = [] if face in self.unknowns.opened and not self.domain.open else ["u"]
+        names += [self.unknowns.moved_by(face)] if face in self.unknowns.opened else []
+        return Moved(
+            sum((values[name] for name in names[1:]), values[names[0]]),
+            sum((Grad(values[name]) for name in names[1:]), Grad(values[names[0]])),
+        )
+
+    def side_potential_gradient(self, side: str, values: dict[str, Any]) -> Any:
+        """Reference gradient of the potential on ``side`` in the elements that touch the shell."""
+        gradient = Grad(values["phi"])
+        return gradient + Grad(values["jump"]) if self.lifts(side, values) else gradient
+
+    def lifts(self, side: str, values: dict[str, Any]) -> bool:
+        """Is the potential on ``side`` phi + jump?"""
+        return "jump" in values and side == self.field.electrodes.lifted
+
+    def strength(self, side: str, values: dict[str, Any], motion: Any, F: Any) -> Any:
+        """E or H on ``side``, where the ambient moves by ``motion`` with the deformation gradient ``F``."""
+        strength = -1 * (Cof(F) * self.side_potential_gradient(side, values)) / Det(F)
+        if self.field.varying is None:
+            return strength
+        return strength + self._given_at(self.domain.reduction.position + motion)
+
+    def side_energies(self, values: dict[str, Any], side: str, face: Moved) -> list[Any]:
+        """Field energy of one side: where the shell's motion reaches, and beyond."""
+        w, domain = self.motions[side].w, self.domain
+        liquid = self.field.liquids.get(side, 1.0)
+        moved, slope = face.value + w, face.gradient + Grad(w)
+        gradient = self.side_potential_gradient(side, values)
+        near = field_energy(domain.reduction, moved, slope, gradient, self.axial)
+        if self.field.varying is not None:
+            given = self._given_at(domain.reduction.position + moved)
+            near = near + given_energy(domain.reduction, moved, slope, given, self.axial)
+        terms = [liquid * near * domain.volume(domain.near(side))]
+        far = domain.far(side)
+        if far is not None:
+            energy = field_energy(domain.reduction, w, Grad(w), Grad(values["phi"]), self.axial)
+            terms.append(liquid * energy * domain.volume(far))
+        return terms
+
+    def energies(self, values: dict[str, Any]) -> list[Any]:
+        """Every term of the co-energy: both sides, what lies beyond, other bodies, the inside of the shell."""
+        field = self.field
+        if field.extent == "given":
+            return [self._in_given_field(values) * self.domain.surface()]
+        if field.extent == "inside":
+            return [self._film(values) * self.domain.surface()]
+        terms = []
+        for name, side in SIDES.items():
+            terms += self.side_energies(values, side, self.motion_of(name, values))
+            terms += [self._through_face(name, values)] if field.varying is not None else []
+        terms += self._far_energies(values) + self._solid_energies(values)
+        if "jump" in values and (field.matter.contrast is not None or field.matter.remanence is not None):
+            terms.append(self._inside_shell(values) * self.domain.surface())
+        return terms
+
+    def _through_face(self, name: str, values: dict[str, Any]) -> Any:
+        """The mixed part of a varying applied field and the potential, on the face ``name``."""
+        domain, field, side = self.domain, self.field, SIDES[name]
+        moved = self.motion_of(name, values)
+        y, gradient = _trace(moved.value), _trace(moved.gradient)
+        potential = _trace(values["phi"]) + (_trace(values["jump"]) if self.lifts(side, values) else 0.0)
+        face = Face(domain.reduction, domain.normal, y, gradient, self.axial)
+        energy = face_energy(domain.reduction, face, potential, self._given_at(domain.reduction.position + y))
+        return (1.0 if name == "t" else -1.0) * field.liquids.get(side, 1.0) * energy * domain.surface()
+
+    def _given_at(self, place: Any) -> Any:
+        """The applied field at a place (mesh components)."""
+        field = self.field
+        strength = CF(field.applied) if field.varying is None else CF(field.applied) + field.varying(place)
+        return self._factor * strength
+
+    def _far_energies(self, values: dict[str, Any]) -> list[Any]:
+        field, domain = self.field, self.domain
+        if field.grounded:
+            return []
+        reduced = field.varying is not None
+        applied = (0.0 if reduced else self._factor) * CF(field.applied)
+        energy = far_field_energy(domain.reduction, values["phi"], applied, domain.sizes.radius)
+        weight = self.axial * field.liquids.get("outside", 1.0)
+        return [weight * energy * domain.surface("outer")]
+
+    def _solid_energies(self, values: dict[str, Any]) -> list[Any]:
+        """Bodies with a field inside, at rest; a magnet's strength follows the field's factor."""
+        terms = []
+        for number, body in enumerate(self.field.bodies):
+            if isinstance(body, Solid):
+                slope = Grad(values["phi"])
+                field, energy = -1 * slope, CF(0.0)
+                if self.field.varying is not None:
+                    given = self._given_at(self.domain.reduction.position)
+                    field, energy = field + given, InnerProduct(slope, given)
+                energy = energy + 0.5 * body.contrast * InnerProduct(field, field)
+                if body.remanence is not None:
+                    energy = energy + self._factor * InnerProduct(CF(body.remanence), field)
+                terms.append(self.measure * self.axial * energy * self.domain.volume(f"magnet{number}"))
+        return terms
+
+    def _inside_shell(self, values: dict[str, Any]) -> Any:
+        sign = 1.0 if self.field.electrodes.lifted == "outside" else -1.0
+        half_jump = 0.5 * surface_gradient(values["jump"])
+        mean_gradient = surface_gradient(values["phi"]) + half_jump
+        return self._coenergy(values, sign * _trace(values["jump"]), mean_gradient)
+
+    def _film(self, values: dict[str, Any]) -> Any:
+        """The field between two electrodes, constant over the surface they cover."""
+        electrodes = self.field.electrodes
+        covered = self.domain.covered(electrodes.where) if electrodes.where else 1.0
+        sign = 1.0 if electrodes.lifted == "outside" else -1.0
+        return self._coenergy(values, sign * covered * values["jump"], CF((0.0,) * self.domain.mesh.dim))
+
+    def _coenergy(self, values: dict[str, Any], jump: Any, mean_gradient: Any) -> Any:
+        matter, thickness, kinematics = self.field.matter, self.thickness, self._kinematics(values)
+        given = self._given_here(values) if self.field.varying is not None else None
+        return self.measure * shell_field_energy(kinematics, thickness, matter, jump, mean_gradient, given)
+
+    def _in_given_field(self, values: dict[str, Any]) -> Any:
+        kinematics, thickness = self._kinematics(values), self.thickness
+        return self.measure * given_field_energy(kinematics, thickness, self.field.matter, self._given_here(values))
+
+    def _given_here(self, values: dict[str, Any]) -> Any:
+        return self._given_at(self.domain.reduction.position + _trace(values["u"]))
+
+
+def _trace(value: Any) -> Any:
+    return value.Trace() if hasattr(value, "Trace") else value
