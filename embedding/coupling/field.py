@@ -69,11 +69,12 @@ class FieldEnergies:
             return strength
         return strength + self._given_at(self.domain.reduction.position + motion)
 
-    def side_energies(self, values: dict[str, Any], side: str, face: Moved) -> list[Any]:
-        """Field energy of one side: where the shell's motion reaches, and beyond."""
+    def side_energies(self, values: dict[str, Any], side: str, face: Moved, shift: Moved | None = None) -> list[Any]:
+        """Field energy of one side: where the shell's motion reaches, and beyond; ``shift`` moves it further."""
         w, domain = self.motions[side].w, self.domain
         liquid = self.field.liquids.get(side, 1.0)
-        moved, slope = face.value + w, face.gradient + Grad(w)
+        interior = Moved(w, Grad(w)) if shift is None else Moved(w + shift.value, Grad(w) + shift.gradient)
+        moved, slope = face.value + interior.value, face.gradient + interior.gradient
         gradient = self.side_potential_gradient(side, values)
         near = field_energy(domain.reduction, moved, slope, gradient, self.axial)
         if self.field.varying is not None:
@@ -82,8 +83,17 @@ class FieldEnergies:
         terms = [liquid * near * domain.volume(domain.near(side))]
         far = domain.far(side)
         if far is not None:
-            energy = field_energy(domain.reduction, w, Grad(w), Grad(values["phi"]), self.axial)
+            slope = Grad(values["phi"])
+            energy = field_energy(domain.reduction, interior.value, interior.gradient, slope, self.axial)
             terms.append(liquid * energy * domain.volume(far))
+        return terms
+
+    def moved_energies(self, values: dict[str, Any], shift: Any) -> list[Any]:
+        """Co-energy of the ambient when, on top of its present motion, it moves by ``shift``."""
+        terms = []
+        for name, side in SIDES.items():
+            present = self.motion_of(name, values)
+            terms += self.side_energies(values, side, present, Moved(shift, Grad(shift)))
         return terms
 
     def energies(self, values: dict[str, Any]) -> list[Any]:

@@ -16,6 +16,7 @@ from embedding.coupling.lagrangian import OFFSET, Factors, Lagrangian
 from embedding.coupling.linear import DirectSolver
 from embedding.coupling.physics import Physics
 from embedding.coupling.potential_solve import PotentialSolve
+from embedding.coupling.resultants import BodyResultants, ShellResultants
 from embedding.coupling.tractions import FaceTractions
 from embedding.coupling.unknowns import SIDES, Unknowns
 from embedding.geometry.domain import Domain
@@ -39,6 +40,7 @@ class System:
         self.form = form_of(self.lagrangian)
         self.potential = PotentialSolve(self.lagrangian) if self.unknowns.potential is not None else None
         self.tractions = {face: FaceTractions(self.lagrangian, face) for face in self.unknowns.faces}
+        self.resultants = self._resultants()
         if "axial" in self.unknowns:
             self.unknowns.field("axial").vec[0] = 1.0
         self._point_forces = point_load_vector(domain, self.unknowns.trace, physics.loads)
@@ -55,6 +57,17 @@ class System:
         if self.domain.open and faces:
             return dict.fromkeys(faces, AmbientMotion(self.domain, faces))
         return {side: AmbientMotion(self.domain, {side: space}) for side, space in faces.items()}
+
+    def _resultants(self) -> dict[str, ShellResultants | BodyResultants]:
+        """What measures the field's force and torque on the shell and on each body."""
+        field = self.lagrangian.field
+        if field is None or not self.motions:
+            return {}
+        values = {name: self.unknowns.field(name) for name in self.unknowns.names}
+        bodies = range(len(field.field.bodies))
+        return {"shell": ShellResultants(self.lagrangian)} | {
+            f"body{number}": BodyResultants(self.domain, field, values, number) for number in bodies
+        }
 
     @property
     def _different_motions(self) -> list[AmbientMotion]:

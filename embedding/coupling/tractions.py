@@ -62,10 +62,6 @@ class FaceTractions:
         """Mean of the pressure over the reference mid-surface."""
         return self._domain.shell_integral(self.pressure()) / self._domain.shell_integral(1.0)
 
-    def force(self) -> tuple[float, ...]:
-        """Resultant of the traction, mesh components."""
-        return tuple(-self._domain.shell_integral(self.tau[i]) for i in range(self._domain.mesh.dim))
-
 
 class NodalForces:
     """Traction of one side of a closed interface: nodal forces of the side's field energy over the mass matrix."""

@@ -238,12 +238,18 @@ class State:
         return named
 
     def _forces(self) -> dict[str, float]:
-        if not self._system.tractions:
+        """Resultants of the field on the shell and on every body; components that symmetry makes zero are left out."""
+        if not self._system.resultants:
             return {}
-        named = {}
-        force = self._scales.stress * self._scales.length ** (self._lengths - 1)
-        totals = np.sum([traction.force() for traction in self._system.tractions.values()], axis=0)
-        for axis, total in zip(self._domain.reduction.axes, totals, strict=True):
-            if axis != "r" and axis not in self._domain.reduction.planes:
-                named[f"force_{axis}"] = force * float(total)
+        named: dict[str, float] = {}
+        for label, resultants in self._system.resultants.items():
+            suffix = "" if label == "shell" else f"_{label}"
+            force, torque = resultants.evaluate()
+            scale = self._scales.stress * self._scales.length ** (self._lengths - 1)
+            for axis, value in zip(self._domain.reduction.axes, force, strict=True):
+                if axis != "r" and axis not in self._domain.reduction.planes:
+                    named[f"force{suffix}_{axis}"] = scale * float(value)
+            for axis, value in zip("xyz" if len(torque) == 3 else "z", torque, strict=False):
+                if set(self._domain.reduction.planes) <= {axis}:
+                    named[f"torque{suffix}_{axis}"] = scale * self._scales.length * float(value)
         return named
