@@ -68,6 +68,12 @@ class ChargedShell(ABC):
         """Inflating pressure that holds the stretch at the voltage."""
         return self._elastic(stretch)[0] - 0.5 * self.permittivity * self.field(stretch, voltage) ** 2
 
+    def pressure_slope(self, stretch: float, voltage: float = 0.0) -> float:
+        """Derivative of `pressure` with respect to the stretch, at a held voltage."""
+        distance, distance_slope = self._distance(self.face_radius(stretch))
+        pull = self.permittivity * voltage**2 * distance_slope / distance**3
+        return self._elastic(stretch)[1] + pull * self._face_slope(stretch)
+
     def field(self, stretch: float, voltage: float) -> float:
         """Electric field on the outer face."""
         return voltage / self._distance(self.face_radius(stretch))[0]
@@ -100,18 +106,16 @@ class ChargedShell(ABC):
             return elastic_slope * distance + 2.0 * (elastic - pressure) * growth
 
         start = self._unelectrified(pressure)
-        roots = sign_changes(slope, start * (1.0 + 1e-9), self._largest_stretch())
+        roots = sign_changes(slope, start * (1.0 + 1e-9), self.largest_stretch())
         return LimitPoint(roots[0], self.voltage(roots[0], pressure)) if roots else None
 
     def pressure_limit(self, voltage: float) -> LimitPoint | None:
         """First maximum of the inflating pressure at fixed voltage, (stretch, pressure), or None."""
 
         def slope(stretch: float) -> float:
-            distance, distance_slope = self._distance(self.face_radius(stretch))
-            pull = self.permittivity * voltage**2 * distance_slope / distance**3
-            return self._elastic(stretch)[1] + pull * self._face_slope(stretch)
+            return self.pressure_slope(stretch, voltage)
 
-        roots = sign_changes(slope, 1.0, self._largest_stretch())
+        roots = sign_changes(slope, 1.0, self.largest_stretch())
         maxima = [r for r in roots if slope(r * (1.0 - 1e-6)) > 0.0]
         return LimitPoint(maxima[0], self.pressure(maxima[0], voltage)) if maxima else None
 
@@ -138,7 +142,7 @@ class ChargedShell(ABC):
     def _unelectrified(self, pressure: float) -> float:
         """Stretch at zero voltage, on the first branch; ValueError beyond the limit of the pressure."""
 
-    def _largest_stretch(self) -> float:
+    def largest_stretch(self) -> float:
         """Where the face meets the ground, or far out in free space."""
         if math.isinf(self.outer_radius):
             return LARGEST_STRETCH

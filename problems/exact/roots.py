@@ -1,13 +1,25 @@
-"""Scalar root finding shared by the exact solutions."""
+"""Scalar root finding and differentiation shared by the exact solutions."""
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Callable
 
 import numpy as np
 from scipy.optimize import brentq
 
 Function = Callable[[float], float]
+Analytic = Callable[[complex], complex]
+
+
+def complex_slope(function: Analytic, at: float) -> float:
+    """Derivative by a complex step, which subtracts nothing (Squire and Trapp, SIAM Review 40 (1998) 110).
+
+    nan where the function is not finite.
+    """
+    value = function(at + 1e-30j)
+    return value.imag / 1e-30 if cmath.isfinite(value) else math.nan
 
 
 def bracketed_root(function: Function, low: float, high: float) -> float:

@@ -7,15 +7,13 @@ shell.
 
 from __future__ import annotations
 
-import cmath
-import math
 from collections.abc import Callable
 from typing import Literal, NamedTuple
 
 from scipy.integrate import quad
 
 from problems.exact.material import Law, MooneyRivlin, neo_hookean
-from problems.exact.roots import bracketed_root, increasing_root, sign_changes
+from problems.exact.roots import bracketed_root, complex_slope, increasing_root, sign_changes
 
 Theory = Literal["membrane", "thick"]
 
@@ -55,13 +53,7 @@ def membrane_pressure(stretch: float, thickness_ratio: float, law: Law | None = 
 
 def membrane_slope(stretch: float, thickness_ratio: float, law: Law | None = None) -> float:
     """Derivative of `membrane_pressure` with respect to the stretch, to rounding."""
-    return _derivative(lambda s: membrane_pressure(s, thickness_ratio, law), stretch)
-
-
-def _derivative(function: Callable[[complex], complex], at: float) -> float:
-    """By a complex step, which subtracts nothing (Squire and Trapp, SIAM Review 40 (1998) 110); nan past locking."""
-    value = function(at + 1e-30j)
-    return value.imag / 1e-30 if cmath.isfinite(value) else math.nan
+    return complex_slope(lambda s: membrane_pressure(s, thickness_ratio, law), stretch)
 
 
 def _rate(stretch: float, law: Law) -> float:
@@ -73,7 +65,7 @@ def _rate(stretch: float, law: Law) -> float:
         return law.stress_difference(s, s**-2)
 
     if abs(stretch - 1.0) < 1e-5:  # the mean slope by that in the middle: relative error 1e-10
-        slope = _derivative(difference, 0.5 * (1.0 + stretch))
+        slope = complex_slope(difference, 0.5 * (1.0 + stretch))
     else:
         slope = difference(stretch) / (stretch - 1.0)
     return 2.0 * slope / (stretch * (stretch**2 + stretch + 1.0))
