@@ -67,12 +67,12 @@ class AmbientMotion:
         self._inverse: Any = None
         self._noticeable = NOTICEABLE * domain.sizes.shell
         trial = interior.TrialFunction()
-        rule = {element: IntegrationRule(element, 2 * INTERIOR_ORDER) for element in (ET.TET, ET.TRIG)}
+        self.rule = {element: IntegrationRule(element, 2 * INTERIOR_ORDER) for element in (ET.TET, ET.TRIG)}
         self._form = BilinearForm(interior, symmetric=True)
         for materials, y in self._parts(domain):
-            strain = _extension_energy(Id(mesh.dim) + (Grad(trial) if y is None else Grad(y) + Grad(trial)))
-            self._form += Variation(strain * dx(materials, intrules=rule)).Compile()
-        self._free = as_bits(_interior_mask(domain, interior))
+            strain = extension_energy(Id(mesh.dim) + (Grad(trial) if y is None else Grad(y) + Grad(trial)))
+            self._form += Variation(strain * dx(materials, intrules=self.rule)).Compile()
+        self.free = as_bits(_interior_mask(domain, interior))
         self._samples = [
             (Det(gradient).Compile(), mesh.MapToAllElements(_sampling(mesh.dim, order), mesh.Materials(materials)))
             for materials, gradient, order in self._gradients(domain)
@@ -156,7 +156,7 @@ class AmbientMotion:
             self.w.vec.FV().NumPy()[:] = before
         for _ in range(MOST_RELAXATIONS):
             self._form.AssembleLinearization(self.w.vec)
-            self._inverse = self._form.mat.Inverse(self._free, inverse="sparsecholesky")
+            self._inverse = self._form.mat.Inverse(self.free, inverse="sparsecholesky")
             self._assembled_at = face.copy()
             self._relax()
             if not np.all(np.isfinite(self.w.vec.FV().NumPy())) or self.min_jacobian > COMFORTABLE:
@@ -198,7 +198,7 @@ def symmetry_components(domain: Domain) -> tuple[int, ...]:
     return tuple("xyz".index(axis) for axis in domain.reduction.planes)
 
 
-def _extension_energy(F: Any) -> Any:
+def extension_energy(F: Any) -> Any:
     """Isochoric shape change plus a polyconvex price on the volume change, stiffer the smaller the element (h^-3).
 
     log(J)^2 in place of (J^2 - 1) / 2 - log(J) would lose convexity where elements expand beyond J = e. Volume is

@@ -69,11 +69,14 @@ class FieldEnergies:
             return strength
         return strength + self._given_at(self.domain.reduction.position + motion)
 
-    def side_energies(self, values: dict[str, Any], side: str, face: Moved, shift: Moved | None = None) -> list[Any]:
-        """Field energy of one side: where the shell's motion reaches, and beyond; ``shift`` moves it further."""
-        w, domain = self.motions[side].w, self.domain
+    def side_energies(
+        self, values: dict[str, Any], side: str, face: Moved, interior: Moved | None = None
+    ) -> list[Any]:
+        """Field energy of one side: where the shell's motion reaches, and beyond. ``interior`` replaces the present
+        motion of the interior."""
+        domain = self.domain
         liquid = self.field.liquids.get(side, 1.0)
-        interior = Moved(w, Grad(w)) if shift is None else Moved(w + shift.value, Grad(w) + shift.gradient)
+        interior = interior or self._interior(side)
         moved, slope = face.value + interior.value, face.gradient + interior.gradient
         gradient = self.side_potential_gradient(side, values)
         near = field_energy(domain.reduction, moved, slope, gradient, self.axial)
@@ -88,12 +91,15 @@ class FieldEnergies:
             terms.append(liquid * energy * domain.volume(far))
         return terms
 
-    def moved_energies(self, values: dict[str, Any], shift: Any) -> list[Any]:
-        """Co-energy of the ambient when, on top of its present motion, it moves by ``shift``."""
+    def _interior(self, side: str) -> Moved:
+        w = self.motions[side].w
+        return Moved(w, Grad(w))
+
+    def moved_energies(self, values: dict[str, Any], interior: Callable[[Moved], Moved]) -> list[Any]:
+        """Co-energy of the ambient with its interior moved by what ``interior`` makes of its present motion."""
         terms = []
         for name, side in SIDES.items():
-            present = self.motion_of(name, values)
-            terms += self.side_energies(values, side, present, Moved(shift, Grad(shift)))
+            terms += self.side_energies(values, side, self.motion_of(name, values), interior(self._interior(side)))
         return terms
 
     def energies(self, values: dict[str, Any]) -> list[Any]:

@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from ngsolve import BND, CF, BilinearForm, Compress, Cross, GridFunction, Variation, VectorH1
+from ngsolve import BND, CF, BilinearForm, Compress, Cross, Grad, GridFunction, Variation, VectorH1
 
-from embedding.coupling.field import FieldEnergies
+from embedding.coupling.field import FieldEnergies, Moved
 from embedding.coupling.lagrangian import Lagrangian
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits, as_mask
@@ -67,7 +67,8 @@ class BodyResultants:
         space = Compress(whole, as_bits(as_mask(whole.GetDofs(self._boundary))))
         self._still, self._rows = GridFunction(space), GridFunction(space).vec
         self._form = BilinearForm(space)
-        for term in field.moved_energies(values, space.TrialFunction()):
+        shift = space.TrialFunction()
+        for term in field.moved_energies(values, lambda w: Moved(w.value + shift, w.gradient + Grad(shift))):
             self._form += Variation(term).Compile()
 
     def evaluate(self) -> tuple[Array, Array]:

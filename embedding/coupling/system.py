@@ -12,6 +12,7 @@ from ngsolve import BND, GridFunction, InnerProduct
 
 from embedding.ambient.motion import AmbientMotion
 from embedding.coupling.elementwise import form_of
+from embedding.coupling.following import Following
 from embedding.coupling.lagrangian import OFFSET, Factors, Lagrangian
 from embedding.coupling.linear import DirectSolver
 from embedding.coupling.physics import Physics
@@ -41,6 +42,10 @@ class System:
         self.potential = PotentialSolve(self.lagrangian) if self.unknowns.potential is not None else None
         self.tractions = {face: FaceTractions(self.lagrangian, face) for face in self.unknowns.faces}
         self.resultants = self._resultants()
+        self.following: Following | None = None
+        if self.lagrangian.field is not None and domain.open and self.motions:
+            motion = self.motions[SIDES["t"]]
+            self.following = Following(domain, self.lagrangian.field, self.unknowns, motion)
         if "axial" in self.unknowns:
             self.unknowns.field("axial").vec[0] = 1.0
         self._point_forces = point_load_vector(domain, self.unknowns.trace, physics.loads)
@@ -138,6 +143,8 @@ class System:
         if self.potential is not None:
             for name, number, charge in self.potential.charges_given():
                 residual.FV().NumPy()[self.unknowns.range(name).start + number] += charge
+        if self.following is not None:
+            self.following.add_to(residual)
         return residual
 
     def _measure_rotations(self) -> None:
