@@ -15,6 +15,7 @@ Nothing here knows of shells or fields.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
@@ -144,8 +145,8 @@ def contraction(inputs: Sequence[Array], answers: Sequence[Array]) -> float:
     """By what factor H multiplies the worst error that was seen: the largest eigenvalue of its derivative, as far as
     the differences of the pairs show it; nan before there are two pairs.
 
-    A Ritz value on the span of the differences, signed if it is real: above 1 the plain iteration runs away from the
-    fixed point, below -1 it swings away from it; of a complex pair the size is given.
+    A Ritz value on the span of the differences; of a complex pair the size, with the sign of the real part. Above 1 the
+    plain iteration runs away from the fixed point, below -1 it swings away from it.
     """
     moves, changes = differences(inputs, answers)
     largest = max((float(np.linalg.norm(move)) for move in moves), default=0.0)
@@ -156,7 +157,7 @@ def contraction(inputs: Sequence[Array], answers: Sequence[Array]) -> float:
     answered = np.column_stack([changes[loud[i]] for i in kept])
     values = np.linalg.eigvals(np.linalg.solve(r.T, (q.T @ answered).T).T)
     worst = values[np.argmax(np.abs(values))]
-    return float(worst.real) if abs(worst.imag) <= 1e-9 * abs(worst) else float(abs(worst))
+    return math.copysign(abs(worst), worst.real)
 
 
 ACCELERATORS: dict[str, Callable[[], Accelerator]] = {"none": Relaxation, "aitken": Aitken, "iqn-ils": QuasiNewton}

@@ -55,7 +55,8 @@ def estimate_error(problem: Problem, target: Target, steps: Sequence[StepRecord]
     change = _enriched_change(problem, target, quantity)
     if change is None:
         return ErrorEstimate(sum(parts.values()), quantity, "thickness only; discretisation is NOT included", parts)
-    parts["discretisation"] = change
+    # From a rung below the joint one, Newton's steps find what the coupling left out as well.
+    parts["discretisation and coupling" if problem.plan.coupling == "once" else "discretisation"] = change
     method = f"thickness, and the change from order {order} to order {order + 1}"
     if problem.domain.rims and not problem.plan.bending:
         method += "; bending at held edges is NOT included"

@@ -123,15 +123,19 @@ class Staggered(Parts):
             held = forces
             iterations.append(Iteration(number, update, residual, *self._pressures()))
             watch(iterations[-1])
-            factor = contraction(inputs[-WATCHED:], answers[-WATCHED:])
             if max(update, residual) < self.tolerance:
+                factor = contraction(inputs[-WATCHED:], answers[-WATCHED:])
                 self.scalars = {"coupling_iterations": float(number), "contraction": factor}
                 fits = self._surround()
                 return Outcome(tuple(iterations), None if fits else Result.INVERTED_AMBIENT)
             if _hopeless([iteration.update for iteration in iterations]):
                 break
             self._move_to(self.accelerator.propose(inputs[-1], answers[-1]))
-        return Outcome(tuple(iterations), Result.STAGGERED_DIVERGED, _told(len(iterations), factor))
+        # Turns that run away end in large swings: what they do beside the fixed point shows right after the best one.
+        after = min(3 + int(np.argmin([iteration.update for iteration in iterations])), len(iterations))
+        factor = contraction(inputs[after - 2 : after], answers[after - 2 : after])
+        told = f"{len(iterations)} turns, each of which multiplies the worst error by {factor:.3g} unless accelerated"
+        return Outcome(tuple(iterations), Result.STAGGERED_DIVERGED, told)
 
     def _move_to(self, displacement: Array) -> None:
         """Put the shell at a displacement; whatever its supports hold stays as the load has it."""
@@ -195,7 +199,3 @@ def _hopeless(updates: list[float]) -> bool:
     if len(updates) <= PATIENCE:
         return False
     return min(updates[-PATIENCE:]) > PROGRESS * min(updates[:-PATIENCE])
-
-
-def _told(turns: int, factor: float) -> str:
-    return f"{turns} turns, each of which multiplies the worst error by {factor:.3g} unless it is accelerated"
