@@ -39,14 +39,17 @@ INTERIOR_ORDER = 2
 VOLUME_PRICE = {2: 0.3, 3: 0.02}
 GUARD = 0.02
 MOST_SUBSTEPS = 16
-MOST_RELAXATIONS = 3
+MOST_RELAXATIONS, MOST_HALVINGS = 6, 6
+LOOSE, SETTLED = 0.05, 1e-3
 COMFORTABLE = 0.3
+PROBE = 1e-6
 NOTICEABLE = 2e-2
 OUTDATED = 0.15
 SERVES = 0.3
 """Guard on det F. An older matrix of the extension is good enough while det F is above ``COMFORTABLE``, the face has
 moved by less than ``OUTDATED`` (shell sizes) since, and a step with it leaves at most the part ``SERVES`` of the
-residual. A face that moved less than ``NOTICEABLE`` (mesh sizes) does not disturb the interior."""
+residual. With a new one the interior is relaxed until a step brings less than ``LOOSE`` of its energy, or ``SETTLED``
+where it is not comfortable. A face that moved less than ``NOTICEABLE`` (mesh sizes) does not disturb the interior."""
 
 
 class AmbientMotion:
@@ -122,46 +125,68 @@ class AmbientMotion:
         return False
 
     def _walk(self, start: Any, target: Any, substeps: int) -> bool:
-        """Move the face in equal substeps; from the second on the interior starts from its own last move."""
-        interior = self.w.vec.FV().NumPy()
-        last_move = np.zeros_like(interior)
-        for i in range(1, substeps + 1):
-            before = interior.copy()
-            interior += last_move
-            stop = target if i == substeps else start + i / substeps * (target - start)
-            if not self._settle(stop):
-                return False
-            last_move = interior - before
-        return True
+        """Move the faces in equal substeps, the interior with them."""
+        stops = [start + i / substeps * (target - start) for i in range(1, substeps)] + [target]
+        return all(self._settle(stop) for stop in stops)
 
     def _restore(self, saved: list[Any]) -> None:
         for vector, values in zip(self.vectors(), saved, strict=True):
             vector[:] = values
 
-    def _place(self, face: Any) -> bool:
+    def _place(self, faces: Array) -> bool:
         """Move the faces alone."""
-        parts = np.split(face, np.cumsum([y.vec.size for y in self.y.values()])[:-1])
+        parts = np.split(faces, np.cumsum([y.vec.size for y in self.y.values()])[:-1])
         for y, part in zip(self.y.values(), parts, strict=True):
             y.vec.FV().NumPy()[:] = part
         return self.min_jacobian > GUARD
 
-    def _settle(self, face: Any) -> bool:
-        """Move the face, then let the interior take one Newton step, with an older matrix if it serves."""
-        if not self._place(face):
+    def _settle(self, faces: Array) -> bool:
+        """Move the faces, and the interior as the tangent at hand predicts; then relax it."""
+        known = self._inverse is not None and np.abs(faces - self._assembled_at).max(initial=0.0) < OUTDATED
+        if not known:
+            self._assemble(self._face())
+        if not self._predict(faces):
             return False
-        before = self.w.vec.FV().NumPy().copy()
-        if self._inverse is not None and np.abs(face - self._assembled_at).max(initial=0.0) < OUTDATED:
+        if known:
+            predicted = self.w.vec.FV().NumPy().copy()
             if self._relax() < SERVES and self.min_jacobian > COMFORTABLE:
                 return True
-            self.w.vec.FV().NumPy()[:] = before
+            self.w.vec.FV().NumPy()[:] = predicted
         for _ in range(MOST_RELAXATIONS):
-            self._form.AssembleLinearization(self.w.vec)
-            self._inverse = self._form.mat.Inverse(self.free, inverse="sparsecholesky")
-            self._assembled_at = face.copy()
-            self._relax()
-            if not np.all(np.isfinite(self.w.vec.FV().NumPy())) or self.min_jacobian > COMFORTABLE:
+            self._assemble(faces)
+            if not self._descend():
                 break
-        return bool(np.all(np.isfinite(self.w.vec.FV().NumPy()))) and self.min_jacobian > GUARD
+        return self.min_jacobian > GUARD
+
+    def _assemble(self, faces: Array) -> None:
+        self._form.AssembleLinearization(self.w.vec)
+        self._inverse = self._form.mat.Inverse(self.free, inverse="sparsecholesky")
+        self._assembled_at = faces.copy()
+
+    def _predict(self, faces: Array) -> bool:
+        """Move the faces, and the interior by - K_ww^{-1} K_wy dy; the product by a difference quotient."""
+        present, step = self._face(), self.w.vec.CreateVector()
+        rest, moved = self.w.vec.CreateVector(), self.w.vec.CreateVector()
+        self._form.Apply(self.w.vec, rest)
+        self._place(present + PROBE * (faces - present))
+        self._form.Apply(self.w.vec, moved)
+        moved.data -= rest
+        step.data = 1 / PROBE * (self._inverse * moved)
+        self.w.vec.data -= step
+        return self._place(faces)
+
+    def _descend(self) -> bool:
+        """One step with the matrix at hand, halved until it lowers the energy; False if it is not worth another."""
+        step, size = self._preconditioned_residual()
+        before, energy = self.w.vec.FV().NumPy().copy(), self._form.Energy(self.w.vec)
+        if not math.isfinite(size):
+            return False
+        for halving in range(MOST_HALVINGS):
+            self.w.vec.FV().NumPy()[:] = before - 0.5**halving * step.FV().NumPy()
+            if self.min_jacobian > GUARD and self._form.Energy(self.w.vec) < energy:
+                return size * size > (LOOSE if self.min_jacobian > COMFORTABLE else SETTLED) * energy
+        self.w.vec.FV().NumPy()[:] = before
+        return False
 
     def _relax(self) -> float:
         """One step with the matrix at hand; returns by what factor it changed the residual, in that matrix's norm."""
