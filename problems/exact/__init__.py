@@ -4,6 +4,11 @@ One module a body: `plate`, `cylinder` (held length), `open_tube` (free length) 
 mechanical; `charged_balloon` and `charged_tube` are conductors at a voltage; `permeable_sphere` and
 `permeable_cylinder` are linear shells in a uniform field. `material` holds the laws.
 
+Fields: `dielectric_film`, `dielectric_balloon` and `dielectric_tube` have electrodes on both faces; `capacitance`,
+`conducting_spheres` and `charged_disc` are rigid conductors; `mems` is pull-in over a rigid electrode;
+`hard_magnetic_elastica` a remanent cantilever; `radial_modes` the force on permeable shells that change their shape;
+`magnetised_shell` remanent, saturated and normally magnetised shells; `line_current` a tube beside or around a wire.
+
 For shells with bending and for membranes: `circular_membrane` and its small-strain limit `hencky`; `flexure`
 (exact block in bending); `elastica`, `koiter_strip` (a strip of the shell's own energy), `arch` and
 `circular_arch` (snap-through); linear `plates`, `edge_bending` and `diaphragm_cylinder`; critical loads in

@@ -62,9 +62,7 @@ def two_spheres(a: float, b: float, distance: float, permittivity: float = 1.0) 
     return TwoSpheres(scale * own, scale * mutual, scale * _own(b, a, distance).real)
 
 
-def repulsion(
-    a: float, b: float, distance: float, voltages: tuple[float, float], permittivity: float = 1.0
-) -> float:
+def repulsion(a: float, b: float, distance: float, voltages: tuple[float, float], permittivity: float = 1.0) -> float:
     """Force that pushes the spheres apart at held voltages: half the derivative of V c V, exact."""
     first, second = voltages
 

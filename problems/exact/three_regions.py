@@ -7,9 +7,10 @@ pointing away from it (Jackson, Classical Electrodynamics, sec. 5.12 for the sph
     in shell  phi = (-shell_uniform r + shell_dipole r^(1-d)) cos theta
     inside    phi = -H_inner r cos theta
 
-Continuity of phi and of mu dphi/dr on both faces gives the four coefficients. Vacuum Maxwell stress at the
-faces, sigma = mu0 (H H - H^2/2 I), gives the tractions. For a dielectric read E, eps0, eps_r for H, mu0,
-mu_r.
+Continuity of phi and of mu dphi/dr on both faces gives the four coefficients; with a uniform remanence B_r along
+the applied field the shell has B = mu0 mu_r H + B_r, and B_r cos theta joins its flux. Vacuum Maxwell stress at the
+faces, sigma = mu0 (H H - H^2/2 I), gives the tractions. For a dielectric read E, eps0, eps_r, P for H, mu0,
+mu_r, B_r.
 """
 
 from __future__ import annotations
@@ -54,6 +55,7 @@ class ThreeRegions:
     relative_permeability: float
     applied_field: float = 1.0
     permeability: float = 1.0
+    remanence: float = 0.0
     dimension: ClassVar[int]
 
     def __post_init__(self) -> None:
@@ -65,7 +67,7 @@ class ThreeRegions:
     def coefficients(self) -> Coefficients:
         """The four coefficients, from the 4 x 4 system of the interface conditions."""
         d, a, b, mu = self.dimension, self.inner_radius, self.outer_radius, self.relative_permeability
-        h0 = self.applied_field
+        h0, source = self.applied_field, self.remanence / self.permeability
         # Unknowns scaled to fields at the faces, so that the matrix has entries of order one.
         ratio = (a / b) ** d
         matrix = np.array(
@@ -76,7 +78,7 @@ class ThreeRegions:
                 [0.0, -mu, -mu * (d - 1.0) / ratio, 1.0],  # flux at a
             ]
         )
-        dipole, uniform, shell_dipole, inner = np.linalg.solve(matrix, np.array([h0, h0, 0.0, 0.0]))
+        dipole, uniform, shell_dipole, inner = np.linalg.solve(matrix, np.array([h0, h0 - source, 0.0, source]))
         return Coefficients(float(dipole) * b**d, float(uniform), float(shell_dipole) * b**d, float(inner))
 
     @property
@@ -122,9 +124,13 @@ class ThreeRegions:
 
     @property
     def energy_change(self) -> float:
-        """Change of the integral of -mu H^2 / 2 when the body enters a field of fixed sources: -mu0 m H0 / 2.
+        """Change of the integral of -(mu H^2 / 2 + B_r . H) when the body enters a field of fixed sources.
 
-        Landau and Lifshitz, Electrodynamics of Continuous Media, sec. 11 and 32. Its decrease is the work of
-        the field's forces; per length for a cylinder.
+        -mu0 m H0 / 2, less half the integral of B_r . H over the body, in which the dipole's part of H has no mean
+        (Landau and Lifshitz, Electrodynamics of Continuous Media, sec. 11 and 32). Its decrease is the work of the
+        field's forces; per length for a cylinder.
         """
-        return -0.5 * self.permeability * self.moment * self.applied_field
+        d = self.dimension
+        volume = (4.0 / 3.0 if d == 3 else 1.0) * math.pi * (self.outer_radius**d - self.inner_radius**d)
+        own = 0.5 * self.remanence * self.coefficients.shell_uniform * volume
+        return -0.5 * self.permeability * self.moment * self.applied_field - own

@@ -30,6 +30,15 @@ def test_membrane_in_free_space() -> None:
         assert ratio**2 == pytest.approx(chi, rel=1e-12)
 
 
+def test_balloon_under_pressure_and_voltage() -> None:
+    """p R / (mu T) = 2 (l^-1 - l^-7) - eps V^2 / (2 mu T R l^2) (Green and Adkins, with Maxwell's pull), ten digits."""
+    balloon = ChargedBalloon(thickness=0.01, theory="membrane")
+    for load_, stretch, pressure in [(0.2, 1.1, 0.7092209536), (0.5, 1.3, 1.071799912), (1.0, 1.02, -0.2609204341)]:
+        assert balloon.pressure(stretch, math.sqrt(0.01 * load_)) / 0.01 == pytest.approx(pressure, abs=1e-9)
+    for stretch, voltage in [(1.01, 0.2341372496), (1.5, 5.473251029), (3.0, 11.98353909)]:
+        assert balloon.voltage(stretch) ** 2 / 0.01 == pytest.approx(voltage, abs=1e-8)
+
+
 def test_pressure_limit_at_voltage() -> None:
     balloon = ChargedBalloon(thickness=0.01, theory="membrane")
     limit = balloon.pressure_limit(math.sqrt(0.3 * 4.0 * 0.01))

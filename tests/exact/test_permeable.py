@@ -27,6 +27,22 @@ def test_published_inner_fields() -> None:
     assert tube == pytest.approx([0.731343283582, 0.838403990025, 0.961447847505], abs=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("mu", "wall", "sphere", "dipole", "tube"),
+    [
+        (2.0, 0.05, 0.9843999945, 0.03900001367, 0.9879592467),
+        (10.0, 0.1, 0.6721333513, 0.3825110902, 0.722152013),
+        (1e3, 0.01, 0.1318039093, 0.8694996885, 0.1676430484),
+        (1e4, 0.2, 0.0009214657192, 0.999228411, 0.001110099676),
+    ],
+)
+def test_published_shielding(mu: float, wall: float, sphere: float, dipole: float, tube: float) -> None:
+    """J. D. Jackson, Classical Electrodynamics, eqs. 5.121 and 5.122, at the wall over the outer radius."""
+    shell = PermeableSphere(1.0 - wall, 1.0, mu)
+    assert (shell.inner_field, shell.coefficients.dipole) == pytest.approx((sphere, dipole), rel=1e-9)
+    assert PermeableCylinder(1.0 - wall, 1.0, mu).inner_field == pytest.approx(tube, rel=1e-9)
+
+
 def test_published_tractions() -> None:
     expected = (-0.660383808191, -0.547782059023, 0.0, 0.232376423150)
     assert tuple(permeable_sphere(0.1, 10.0).tractions(0.25 * math.pi)) == pytest.approx(expected, abs=1e-12)
