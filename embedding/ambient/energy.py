@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ngsolve import CF, Cof, Det, Grad, Id, InnerProduct
+from ngsolve import CF, Cof, Det, Id, InnerProduct
 
 from embedding.geometry.reduction import Reduction
 
@@ -24,27 +24,6 @@ def field_energy(reduction: Reduction, motion: Any, motion_gradient: Any, potent
     flux = Cof(F) * potential_gradient
     stretch = reduction.out_of_plane(motion, axial)
     return 0.5 * reduction.measure * stretch * InnerProduct(flux, flux) / Det(F)
-
-
-def far_field_energy(reduction: Reduction, potential: Any, applied: Any, radius: float) -> Any:
-    """Energy of the space beyond the outer boundary, to be integrated over it with ``ds("outer")``.
-
-    The potential beyond is that of the applied field plus a decaying part phi' = Phi + E0 . X. On a sphere of radius
-    R the decaying harmonic of degree l has the normal derivative -(l + 1) / R; the form used here,
-
-        1/2 [ phi'^2 / R + (R / 2) |grad_s phi'|^2 ]          (3D and axisymmetry)
-        1/2 [ 2 phi'^2 / 3R + (R / 3) |grad_s phi'|^2 ]       (plane strain: degree l decays with l / R)
-
-    is exact for the net charge and the dipole (l = 0, 1; in the plane, where a net charge has no free space, for
-    l = 1, 2) and keeps the matrix sparse: the second-order Robin condition of Bayliss, Gunzburger and Turkel.
-    """
-    excess = potential + InnerProduct(applied, reduction.position)
-    slope = Grad(potential).Trace() if hasattr(Grad(potential), "Trace") else Grad(potential)
-    normal = reduction.position / radius
-    slope_of_excess = slope + applied - InnerProduct(applied, normal) * normal
-    value, slope_weight = (2 / 3, radius / 3) if reduction.name == "plane-strain" else (1.0, radius / 2)
-    decaying = value * excess * excess / radius + slope_weight * InnerProduct(slope_of_excess, slope_of_excess)
-    return reduction.measure * (0.5 * decaying + InnerProduct(applied, normal) * potential)
 
 
 def no_field(dimension: int) -> Any:

@@ -53,7 +53,7 @@ class PotentialSpaces:
         self.conductors: list[Conductor] = []
         self.phi, held = self._spread(domain, bodies, odd_planes)
         self.on_outer: Mask = scalar_mask(self.phi, domain.mesh.Boundaries("outer"))
-        held |= (self.on_outer & grounded) | scalar_mask(self.phi, domain.mesh.Boundaries("infinity"))
+        held |= self.on_outer & grounded
         for conductor in self.conductors:
             held[conductor.number] |= conductor.voltage is not None
         self.free_phi: Mask = as_mask(self.phi.FreeDofs()) & ~held

@@ -8,7 +8,8 @@ from typing import Any
 
 from ngsolve import CF, Cof, Det, Grad, InnerProduct, Parameter
 
-from embedding.ambient.energy import far_field_energy, field_energy
+from embedding.ambient.energy import field_energy
+from embedding.ambient.far import far_field
 from embedding.ambient.motion import AmbientMotion
 from embedding.ambient.reduced import Face, face_energy, given_energy
 from embedding.ambient.transmission import given_field_energy, shell_field_energy
@@ -43,6 +44,8 @@ class FieldEnergies:
         self.thickness, self.axial = physics.thickness, physics.axial_stretch
         self.measure = domain.reduction.measure
         self._factor, self._kinematics = factor, kinematics
+        uniform = field.applied if field.varying is None else tuple(0.0 for _ in field.applied)
+        self._far = far_field(domain, uniform, infinite=field.beyond)
 
     def motion_of(self, face: str, values: dict[str, Any]) -> Moved:
         """What moves the elements beside ``face`` ("t" or "b"), without the ambient's interior motion."""
@@ -135,14 +138,11 @@ class FieldEnergies:
         return self._factor * strength
 
     def _far_energies(self, values: dict[str, Any]) -> list[Any]:
-        field, domain = self.field, self.domain
+        field = self.field
         if field.grounded:
             return []
-        reduced = field.varying is not None
-        applied = (0.0 if reduced else self._factor) * CF(field.applied)
-        energy = far_field_energy(domain.reduction, values["phi"], applied, domain.sizes.radius)
         weight = self.axial * field.liquids.get("outside", 1.0)
-        return [weight * energy * domain.surface("outer")]
+        return self._far.terms(values["phi"], self._factor, weight)
 
     def _solid_energies(self, values: dict[str, Any]) -> list[Any]:
         """Bodies with a field inside, at rest; a magnet's strength follows the field's factor."""

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from ngsolve import CF, H1, BilinearForm, FESpace, Grad, GridFunction, Integrate, Variation, VectorH1, ds, dx
 
-from embedding.ambient.energy import far_field_energy, field_energy
+from embedding.ambient.energy import field_energy
+from embedding.ambient.far import robin_energy
 from embedding.ambient.motion import symmetry_components
 from embedding.ambient.transmission import Matter, shell_field_energy
 from embedding.geometry.domain import Domain
@@ -64,13 +65,13 @@ def test_field_energy(name: str, axial: float) -> None:
 
 
 @pytest.mark.parametrize("name", REDUCTIONS)
-def test_far_field_energy(name: str) -> None:
+def test_robin_energy(name: str) -> None:
     """Quadratic in the potential: gradient and Hessian to rounding."""
     domain = surrounded(name)
     space = H1(domain.mesh, order=3)
     form = BilinearForm(space)
     applied = CF((0.0, 0.3) if domain.mesh.dim == 2 else (0.0, 0.2, 0.3))
-    form += Variation(far_field_energy(domain.reduction, space.TrialFunction(), applied, 2.0) * ds("outer"))
+    form += Variation(robin_energy(domain.reduction, space.TrialFunction(), applied, 2.0) * ds("outer"))
     state = GridFunction(space)
     state.Set(domain.reduction.position[0] ** 2 + 0.4)
     taylor = Taylor(form, state.vec, random_directions(np.ones(space.ndof, bool), 1.0))
@@ -172,7 +173,7 @@ def test_decaying_harmonics_on_the_outer_boundary(name: str, degree: int) -> Non
     potential.Set(harmonic)
     zero = CF((0.0,) * domain.mesh.dim)
     outer = ds("outer", bonus_intorder=4)
-    energy = Integrate(far_field_energy(domain.reduction, potential, zero, 2.0) * outer, domain.mesh)
+    energy = Integrate(robin_energy(domain.reduction, potential, zero, 2.0) * outer, domain.mesh)
     square = Integrate(domain.reduction.measure * potential**2 * outer, domain.mesh)
     coefficient = {True: (2 / 3, 1.0, 2.0), False: (1.0, 2.0, 4.0)}[plane][degree]
     assert energy == pytest.approx(0.5 * coefficient / 2.0 * square, rel=1e-3)
