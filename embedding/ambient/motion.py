@@ -184,7 +184,7 @@ class AmbientMotion:
         for halving in range(MOST_HALVINGS):
             self.w.vec.FV().NumPy()[:] = before - 0.5**halving * step.FV().NumPy()
             if self.min_jacobian > GUARD and self._form.Energy(self.w.vec) < energy:
-                return size * size > (LOOSE if self.min_jacobian > COMFORTABLE else SETTLED) * energy
+                return bool(size * size > (LOOSE if self.min_jacobian > COMFORTABLE else SETTLED) * energy)
         self.w.vec.FV().NumPy()[:] = before
         return False
 

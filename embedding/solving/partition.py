@@ -66,7 +66,7 @@ class FieldPart:
         if joint.unknowns.opened:
             gap = joint.residual()
             for face in joint.unknowns.opened:
-                joint.unknowns.field(f"y_{face}").vec.data += self._recovered(gap, f"tau_{face}")
+                joint.unknowns.field(joint.unknowns.moved_by(face)).vec.data += self._recovered(gap, f"tau_{face}")
         return joint.follow()
 
     def solve(self) -> None:
@@ -79,7 +79,8 @@ class FieldPart:
         if self.joint.unknowns.opened:
             residual = self.joint.residual()
             for face in self.joint.unknowns.opened:
-                self.joint.unknowns.field(f"tau_{face}").vec.data += self._recovered(residual, f"y_{face}")
+                rows = self.joint.unknowns.moved_by(face)
+                self.joint.unknowns.field(f"tau_{face}").vec.data += self._recovered(residual, rows)
 
     def forces(self) -> Array:
         """f(u), nodal forces of the solved field on the displacements (unknowns of u,)."""
