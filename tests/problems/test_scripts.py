@@ -12,9 +12,9 @@ from problems import plate_squeeze
 
 FOLDER = Path(plate_squeeze.__file__).parent
 SCRIPTS = ("plate_traction", "uniaxial_tension", "plate_squeeze", "cylinder_inflation", "open_tube", "sphere_inflation",
-           "varying_pressure_sphere", "charged_balloon", "grounded_balloon", "permeable_sphere", "cantilever_shear",
-           "cantilever_moment", "t_cantilever", "hinged_roof", "cap_snap_through", "circular_membrane",
-           "torus_inflation")  # fmt: skip
+           "varying_pressure_sphere", "charged_balloon", "grounded_balloon", "dielectric_balloon", "permeable_sphere",
+           "cantilever_shear", "cantilever_moment", "t_cantilever", "hinged_roof", "cap_snap_through",
+           "circular_membrane", "torus_inflation")  # fmt: skip
 
 
 @pytest.mark.parametrize("name", SCRIPTS)
