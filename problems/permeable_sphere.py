@@ -63,16 +63,20 @@ class FieldTractions(Listener):
         rule = IntegrationRule(ET.TRIG if problem.reduction.dimension == 3 else ET.SEGM, 6)
         points = problem.mesh.MapToAllElements(rule, problem.blocks["shell"].region)
         where = problem.embed(np.asarray(problem.reduction.position(points)))
-        across = np.hypot(where[:, 0], where[:, 1])
-        self.theta = np.arctan2(across, where[:, 2])
-        outward = where[:, :2] / across[:, None]
-        e_theta = np.column_stack([np.cos(self.theta)[:, None] * outward, -np.sin(self.theta)])
+        self.theta, e_theta = self.polar(where)
         for face, traction in problem.system.tractions.items():
             traction.refresh()
             tangential = problem.embed_vector(np.asarray(CF(traction.tangential())(points)))
             pressure = np.asarray(CF(traction.pressure())(points)).ravel()
             self.values[f"p_{face}"] = problem.scales.stress * pressure
             self.values[f"tau_{face}"] = problem.scales.stress * np.einsum("ij,ij->i", tangential, e_theta)
+
+    def polar(self, where: Array) -> tuple[Array, Array]:
+        """Angle (n,) from the field along z, and e_theta (n, 3), at points (n, 3)."""
+        across = np.hypot(where[:, 0], where[:, 1])
+        theta = np.arctan2(across, where[:, 2])
+        outward = where[:, :2] / across[:, None]
+        return theta, np.column_stack([np.cos(theta)[:, None] * outward, -np.sin(theta)])
 
 
 def run(*changes: str, archive: Path | None = None, listeners: Sequence[Listener] = ()) -> Solution:
