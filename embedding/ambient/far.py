@@ -33,7 +33,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ngsolve import BND, CF, ET, H1, Grad, GridFunction, InnerProduct, IntegrationRule, Norm, dx
+from ngsolve import BND, CF, ET, H1, Grad, GridFunction, IfPos, InnerProduct, IntegrationRule, Norm, dx
 
 from embedding.geometry.domain import Domain
 from embedding.geometry.reduction import Reduction
@@ -64,7 +64,7 @@ class FarField:
         psi, slope = potential - factor * self.lift, Grad(potential) - factor * Grad(self.lift)
         terms = [weight * beyond_energy(reduction, psi, slope, radius) * beyond(domain)]
         if any(self.applied):
-            mixed = reduction.measure * through(reduction, potential, applied, radius)
+            mixed = reduction.measure * InnerProduct(applied, _outwards(reduction)) * potential
             terms.append(weight * mixed * domain.surface("outer"))
         return terms
 
@@ -81,7 +81,10 @@ def far_field(domain: Domain, applied: tuple[float, ...], *, infinite: bool) -> 
 
 
 def beyond(domain: Domain) -> Any:
-    """The integral over the mapped region: exact for squares of the potential, one order more than for gradients."""
+    """The integral over the mapped region, exact for squares of the potential (the ambient's is for its gradient's).
+
+    Coefficients are smooth: two more orders change a sphere's charge by 2e-8 at potential order 3, 1e-9 at order 4.
+    """
     element = ET.TET if domain.mesh.dim == 3 else ET.TRIG
     return dx("beyond", intrules={element: IntegrationRule(element, 2 * domain.sizes.potential_order)})
 
@@ -102,11 +105,6 @@ def beyond_energy(reduction: Reduction, psi: Any, slope: Any, radius: float, out
     return 0.5 * reduction.measure * k * squares
 
 
-def through(reduction: Reduction, potential: Any, applied: Any, radius: float) -> Any:
-    """The mixed part of (*) per area of the outer boundary: (E0 . n) phi."""
-    return InnerProduct(applied, reduction.position / radius) * potential
-
-
 def robin_energy(reduction: Reduction, potential: Any, applied: Any, radius: float) -> Any:
     """Energy (*) by a condition on the outer boundary, times the measure, to be integrated over ``outer``.
 
@@ -120,8 +118,14 @@ def robin_energy(reduction: Reduction, potential: Any, applied: Any, radius: flo
     """
     excess = potential + InnerProduct(applied, reduction.position)
     slope = Grad(potential).Trace() if hasattr(Grad(potential), "Trace") else Grad(potential)
-    normal = reduction.position / radius
+    normal = _outwards(reduction)
     slope_of_excess = slope + applied - InnerProduct(applied, normal) * normal
     value, slope_weight = (2 / 3, radius / 3) if reduction.name == "plane-strain" else (1.0, radius / 2)
     decaying = value * excess * excess / radius + slope_weight * InnerProduct(slope_of_excess, slope_of_excess)
-    return reduction.measure * (0.5 * decaying + through(reduction, potential, applied, radius))
+    return reduction.measure * (0.5 * decaying + InnerProduct(applied, normal) * potential)
+
+
+def _outwards(reduction: Reduction) -> Any:
+    """The mesh's own normal on the outer boundary, so that a uniform field passes without error on straight meshes."""
+    normal = reduction.normal
+    return IfPos(InnerProduct(normal, reduction.position), 1.0, -1.0) * normal
