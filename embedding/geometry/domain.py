@@ -7,7 +7,7 @@ cannot be settled is refused.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -15,8 +15,10 @@ import numpy as np
 from ngsolve import (
     BND,
     CF,
+    EDGE,
     ET,
     H1,
+    VERTEX,
     VOL,
     BitArray,
     ElementId,
@@ -26,6 +28,7 @@ from ngsolve import (
     Integrate,
     IntegrationRule,
     Mesh,
+    NodeId,
     Region,
     SurfaceL2,
     ds,
@@ -34,7 +37,8 @@ from ngsolve import (
 
 from embedding.errors import Problem, SceneError
 from embedding.geometry import curvature, meshing
-from embedding.geometry.facets import Facets, Mask, OneSidedError
+from embedding.geometry.cut import CloseSheetsError, JunctionError
+from embedding.geometry.facets import Facets, Integers, Mask, OneSidedError
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.sides import signs
 from embedding.geometry.sizes import MeshSizes as MeshSizes
@@ -53,6 +57,9 @@ class Domain:
     reduction: Reduction
     shape: Shape
     sizes: MeshSizes
+    face_numbers: tuple[int, ...] = ()
+    rim_vertices: Integers = field(default_factory=lambda: np.zeros(0, np.int64))
+    rim_edges: Integers = field(default_factory=lambda: np.zeros((0, 2), np.int64))
 
     @property
     def has_ambient(self) -> bool:
@@ -130,11 +137,19 @@ class Domain:
     @property
     def open(self) -> bool:
         """Has the shell a rim inside the ambient?"""
-        return False
+        return len(self.rim_vertices) > 0
 
     def rim_dofs(self, space: Any) -> Mask:
-        """Unknowns of a scalar H1 ``space`` on the rims of the shell."""
-        return np.zeros(space.ndof, bool)
+        """Unknowns of a scalar H1 ``space`` on the rims that the shell has inside the ambient."""
+        mask = np.zeros(space.ndof, bool)
+        ends = {frozenset(edge) for edge in self.rim_edges.tolist()}
+        nodes = [NodeId(VERTEX, int(vertex)) for vertex in self.rim_vertices]
+        if ends:
+            edges = (edge for edge in self.mesh.edges if frozenset(v.nr for v in edge.vertices) in ends)
+            nodes += [NodeId(EDGE, edge.nr) for edge in edges]
+        for node in nodes:
+            mask[[dof for dof in space.GetDofNrs(node) if dof >= 0]] = True
+        return mask
 
     @property
     def shell(self) -> Any:
@@ -146,17 +161,18 @@ class Domain:
         names = self.shape.faces if isinstance(self.shape, SurfaceFile) else ()
         bits = BitArray(len(self.mesh.GetBoundaries()))
         bits.Clear()
-        for number in (i for i, face in enumerate(names) if face == name):
-            bits.Set(number)
+        for boundary, number in enumerate(self.face_numbers):
+            if 0 <= number < len(names) and names[number] == name:
+                bits.Set(boundary)
         return Region(self.mesh, BND, bits)
 
     def covered(self, names: tuple[str, ...]) -> GridFunction:
         """1 on the faces of a file with these names, 0 on the others."""
-        field = GridFunction(SurfaceL2(self.mesh, order=0, definedon=self.shell))
+        cover = GridFunction(SurfaceL2(self.mesh, order=0, definedon=self.shell))
         for name in names:
             for element in self.face(name).Elements():
-                field.vec[field.space.GetDofNrs(ElementId(BND, element.nr))[0]] = 1.0
-        return field
+                cover.vec[cover.space.GetDofNrs(ElementId(BND, element.nr))[0]] = 1.0
+        return cover
 
     @cached_property
     def sign(self) -> Any:
@@ -214,16 +230,22 @@ def build(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Domain:
     Lengths are divided by the size of the shape.
 
     Raises:
-        SceneError: a surface from a file has one side only.
+        SceneError: the surface has no two sides, because it is one-sided or has junctions inside an ambient.
         RuntimeError: the mesh has holes, or the sides cannot be told apart on it.
     """
-    mesh = meshing.mesh(shape, reduction, sizes)
-    mesh.Curve(sizes.order)
-    domain = Domain(mesh, reduction, shape, sizes)
+    try:
+        meshed = meshing.mesh(shape, reduction, sizes)
+        meshed.mesh.Curve(sizes.order)
+        domain = Domain(
+            meshed.mesh, reduction, shape, sizes, meshed.faces, meshed.rim_vertices, meshed.rim_edges
+        )
+        _ = domain.normal
+    except (OneSidedError, JunctionError) as error:
+        reason = f"not allowed: {error}, so it has no top" if isinstance(error, OneSidedError) else (
+            f"not allowed with an ambient: {error}, and the space between them has no top and bottom")  # fmt: skip
+        raise SceneError([Problem("shell.shape", reason)]) from error
+    except CloseSheetsError as error:
+        raise RuntimeError(f"{error}: make the mesh on the shell finer") from error
     if np.any((domain.facets.neighbours == 1) & ~domain.facets.on_edges):
         raise RuntimeError("the mesh of the shell has holes: change the size of its elements")
-    try:
-        _ = domain.normal
-    except OneSidedError as error:
-        raise SceneError([Problem("shell.shape", f"not allowed: {error}, so it has no top")]) from error
     return domain

@@ -1,71 +1,100 @@
-"""From a shape to its mesh: the shell alone, or as an interface inside the ambient."""
+"""From a shape to its mesh: the shell alone, or as an interface inside the ambient with its two sides told apart."""
 
 from __future__ import annotations
 
-import math
+from dataclasses import dataclass
+from typing import Any
 
-from ngsolve import Mesh
+import netgen.meshing as netgen
+import numpy as np
+from ngsolve import VOL, Mesh
 
-from embedding.geometry import file, plates, revolution, surface, surroundings
+from embedding.geometry.cut import BOTTOM, RIM, TOP, Cut, Integers
+from embedding.geometry.facets import Facets
 from embedding.geometry.reduction import Reduction
+from embedding.geometry.shapes import outline
+from embedding.geometry.sides import signs
 from embedding.geometry.sizes import MeshSizes
-from embedding.scene import (
-    Annulus,
-    Arch,
-    Cap,
-    Cone,
-    Cylinder,
-    Disc,
-    Ellipsoid,
-    Hemisphere,
-    InfiniteCylinder,
-    Plate,
-    Shape,
-    Sphere,
-    Strip,
-    SurfaceFile,
-    Torus,
-    TSection,
-)
-
-WHOLE_TURN = (0.0, 2 * math.pi)
+from embedding.geometry.surroundings import raw_mesh
+from embedding.scene import Shape
 
 
-def mesh(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Mesh:
-    """Straight-sided mesh of the dimensionless ``shape``: lengths are divided by its size."""
-    if sizes.radius:
-        make = surroundings.sphere_in_ball if isinstance(shape, Sphere) else surroundings.ring_in_disc
-        return make(reduction, sizes.radius, sizes.shell, sizes.far, sizes.grading)
-    match shape:
-        case Plate():
-            return surface.plate(shape.length / shape.size, shape.width / shape.size, sizes)
-        case Disc():
-            return surface.disc(reduction, sizes)
-        case Sphere():
-            return surface.sphere(reduction, sizes)
-        case Ellipsoid():
-            a, b, c = (axis / shape.size for axis in shape.semi_axes)
-            return surface.ellipsoid((a, b, c), reduction, sizes)
-        case InfiniteCylinder():
-            return surface.ring(reduction, sizes)
-        case Strip():
-            return surface.strip(sizes)
-        case Arch():
-            return surface.arch(shape.radius / shape.size, shape.half_angle, sizes)
-        case SurfaceFile():
-            return file.file(shape, sizes)
-        case TSection():
-            return plates.t_section(sizes)
-        case Annulus() if shape.slit:
-            return plates.slit_ring(shape.inner_radius / shape.size, 1.0, sizes)
-        case Torus():
-            meridian, sector = revolution.torus(shape, "z" in reduction.planes), WHOLE_TURN
-        case Annulus():
-            meridian, sector = revolution.annulus(shape), revolution.sector(shape)
-        case Cylinder():
-            meridian, sector = revolution.cylinder(shape, "z" in reduction.planes), revolution.sector(shape)
-        case Cap() | Hemisphere():
-            meridian, sector = revolution.cap(shape), revolution.sector(shape)
-        case Cone():
-            meridian, sector = revolution.cone(shape), revolution.sector(shape)
-    return revolution.mesh(meridian, reduction, sector, sizes)
+@dataclass(frozen=True)
+class Meshed:
+    """A straight-sided ``mesh``; the number of the shape's face on each of its boundaries, -1 where there is none; and
+    the rims of the shell in the ambient, vertices (n,) and edges (n, 2) by vertices."""
+
+    mesh: Mesh
+    faces: tuple[int, ...]
+    rim_vertices: Integers
+    rim_edges: Integers
+
+
+def mesh(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Meshed:
+    """Mesh of the dimensionless ``shape``: lengths are divided by its size.
+
+    Raises:
+        RuntimeError: no mesh of these sizes.
+        JunctionError, CloseSheetsError, OneSidedError: the shell has no two sides in its ambient.
+    """
+    geometry = outline(shape, reduction)
+    none = np.zeros((0, 2), np.int64)
+    if not sizes.radius:
+        alone = geometry.mesh(sizes)
+        return Meshed(alone, tuple(range(len(alone.GetBoundaries()))), none[:, 0], none)
+    raw = raw_mesh(geometry, reduction, sizes)
+    faces = _faces(raw, reduction)
+    trial = Mesh(raw)
+    facets = Facets(trial, trial.Boundaries("shell"))
+    elements = np.array([[v.nr for v in element.vertices] for element in trial.Elements(VOL)])
+    cut = Cut(elements, facets.corners)
+    rim_vertices, rim_edges = cut.rim_vertices, cut.rim_edges
+    points = np.array([v.point for v in trial.vertices])
+    up = signs(facets, shape, reduction)[:, None] * facets.at_centres(reduction.normal)
+    element, facet = cut.beside
+    reach = points[elements[element]].mean(axis=1) - points[facets.corners[facet]].mean(axis=1)
+    sides = cut.sides(np.einsum("ij,ij->i", reach, up[facet]) > 0)
+    materials = np.array([element.mat for element in trial.Elements(VOL)])
+    _relabel(raw, _materials(materials, sides, cut.rooms()), reduction)
+    return Meshed(Mesh(raw), faces, rim_vertices, rim_edges)
+
+
+def _faces(raw: netgen.Mesh, reduction: Reduction) -> tuple[int, ...]:
+    """Numbers of the shape's faces by boundary; from here on they are all called ``shell``."""
+    names = raw.GetRegionNames(codim=1)
+    if reduction.dimension == 2:
+        return tuple(0 if name == "shell" else -1 for name in names)
+    numbers = []
+    for number, name in enumerate(names):
+        of_shell = name.startswith("shell ")
+        numbers.append(int(name.split()[1]) if of_shell else -1)
+        if of_shell:
+            raw.SetBCName(number, "shell")
+    return tuple(numbers)
+
+
+def _materials(materials: Any, sides: Integers, rooms: Integers) -> Any:
+    """The material of each element: beside the shell by its side; the rest of a room that only the bottom face bounds
+    is the inside."""
+    out = materials.astype(object)
+    within = np.setdiff1d(rooms[sides == BOTTOM], rooms[sides == TOP])
+    out[np.isin(rooms, within) & (materials == "outside")] = "inside"
+    out[(sides == TOP) | (sides == RIM)] = "outside_near"
+    out[sides == BOTTOM] = "inside_near"
+    return out
+
+
+def _relabel(raw: netgen.Mesh, materials: Any, reduction: Reduction) -> None:
+    """Give every element of the mesh its material."""
+    index = {name: number + 1 for number, name in reversed(list(enumerate(raw.GetRegionNames(codim=0))))}
+    for name in sorted(set(materials) - set(index)):
+        number = len(raw.GetRegionNames(codim=0)) + 1
+        if reduction.dimension == 2:
+            raw.Add(netgen.FaceDescriptor(surfnr=number, domin=number, bc=number))
+        raw.SetMaterial(number, name)
+        index[name] = number
+    elements = raw.Elements3D() if reduction.dimension == 3 else raw.Elements2D()
+    for number, name in enumerate(materials):
+        element = elements[number]
+        if element.index != index[name]:
+            element.index = index[name]

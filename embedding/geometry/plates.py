@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 
 from netgen.occ import ArcOfCircle, Axes, Compound, Edge, Face, Glue, Pnt, Segment, Wire, WorkPlane
-from ngsolve import Mesh
 
-from embedding.geometry.sizes import MeshSizes
-from embedding.geometry.surface import CLOSE, SEAM, surface_mesh
+from embedding.geometry.outline import CLOSE, SEAM, SurfaceOutline
 
 
-def slit_ring(inner: float, outer: float, sizes: MeshSizes) -> Mesh:
+def slit_ring(inner: float, outer: float) -> SurfaceOutline:
     """Ring cut along the positive x axis: two half rings that share their edge at negative x, but not the other one.
 
     Edges ``inner`` and ``outer``, and the lips ``lip0`` (of the half y >= 0) and ``lip1``.
@@ -27,7 +25,7 @@ def slit_ring(inner: float, outer: float, sizes: MeshSizes) -> Mesh:
             return None if edge.center.x > 0 else SEAM
         return "outer" if math.hypot(edge.start.x, edge.start.y) > (inner + outer) / 2 else "inner"
 
-    return surface_mesh(Compound([Face(upper), Face(lower)]), name, sizes)
+    return SurfaceOutline(Compound([Face(upper), Face(lower)]), name)
 
 
 def _half_ring(inner: float, outer: float, side: float, shared: Edge) -> Wire:
@@ -38,7 +36,7 @@ def _half_ring(inner: float, outer: float, side: float, shared: Edge) -> Wire:
     return Wire([shared, arc(outer), Segment(Pnt(inner, 0, 0), Pnt(outer, 0, 0)), arc(inner)])
 
 
-def t_section(sizes: MeshSizes) -> Mesh:
+def t_section() -> SurfaceOutline:
     """Unit plate x = 0 under the unit plate z = 1, joined along the line ``junction``."""
     vertical = WorkPlane(Axes((0, 0, 0), n=(1, 0, 0), h=(0, 1, 0))).Rectangle(1, 1).Face()
     top = WorkPlane(Axes((-0.5, 0, 1), n=(0, 0, 1), h=(1, 0, 0))).Rectangle(1, 1).Face()
@@ -51,4 +49,4 @@ def t_section(sizes: MeshSizes) -> Mesh:
             return "left" if middle.x < 0 else "right"
         return "bottom" if middle.z < 0.5 else "junction"
 
-    return surface_mesh(Glue([vertical, top]), name, sizes)
+    return SurfaceOutline(Glue([vertical, top]), name)

@@ -7,11 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from netgen.occ import ArcOfCircle, Axis, Edge, Pnt, Segment, Wire
-from ngsolve import Mesh
 
+from embedding.geometry.outline import CLOSE, SEAM, CurveOutline, Outline, SurfaceOutline
 from embedding.geometry.reduction import Reduction
-from embedding.geometry.sizes import MeshSizes
-from embedding.geometry.surface import CLOSE, SEAM, curve_mesh, on_plane, surface_mesh
+from embedding.geometry.surface import on_plane
 from embedding.scene import Annulus, Cap, Cone, Cylinder, Hemisphere, Torus
 
 Place = tuple[float, float]
@@ -42,15 +41,15 @@ class Meridian:
         ]
 
 
-def mesh(meridian: Meridian, reduction: Reduction, sector: tuple[float, float], sizes: MeshSizes) -> Mesh:
-    """Mesh of what ``meridian`` sweeps from the angle ``sector[0]`` to ``sector[1]`` (radians; whole turn allowed).
+def outline(meridian: Meridian, reduction: Reduction, sector: tuple[float, float]) -> Outline:
+    """What ``meridian`` sweeps from the angle ``sector[0]`` to ``sector[1]`` (radians; whole turn allowed).
 
     The mirror planes x and y of ``reduction`` cut it down to its positive side. A mirror plane z must be respected by
     the meridian itself.
     """
     if reduction.name == "axisymmetric":
         pieces = meridian.pieces(lambda p: Pnt(p[0], p[1], 0))
-        return curve_mesh(pieces, lambda p: "axis" if p.x < CLOSE else meridian.name(p.x, p.y), sizes)
+        return CurveOutline(tuple(pieces), lambda p: "axis" if p.x < CLOSE else meridian.name(p.x, p.y))
     start, end = _cut(sector, reduction.planes)
     toward = (math.cos(start), math.sin(start))
     wire = Wire(meridian.pieces(lambda p: Pnt(p[0] * toward[0], p[0] * toward[1], p[1])))
@@ -68,7 +67,7 @@ def mesh(meridian: Meridian, reduction: Reduction, sector: tuple[float, float], 
         turned = (math.atan2(middle.y, middle.x) - start) % (2 * math.pi)
         return SEAM if full else "side0" if min(turned, 2 * math.pi - turned) < CLOSE else "side1"
 
-    return surface_mesh(swept, name, sizes)
+    return SurfaceOutline(swept, name)
 
 
 def _cut(sector: tuple[float, float], planes: tuple[str, ...]) -> tuple[float, float]:

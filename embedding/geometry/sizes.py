@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from embedding.geometry.bodies import Body
+
 AT_POINTS = 16
 """The moment under a force grows with the logarithm of the distance: no order of the elements helps, only their
 size."""
@@ -15,6 +17,8 @@ class MeshSizes:
 
     ``edges`` holds smaller sizes along named edges of the shell, from which elements grow as ``grading`` allows.
     Around ``points`` of a surface, where a force acts on a shell that bends, elements are ``AT_POINTS`` times smaller.
+    The ambient ends at ``radius``, or at a ``box`` of these half edge lengths; ``beyond`` it a mapped region may stand
+    for the rest of space. ``bodies`` lie in it.
     """
 
     shell: float
@@ -24,6 +28,9 @@ class MeshSizes:
     order: int
     edges: tuple[tuple[str, float], ...] = ()
     points: tuple[tuple[float, ...], ...] = ()
+    beyond: bool = False
+    box: tuple[float, ...] | None = None
+    bodies: tuple[Body, ...] = ()
 
     @property
     def potential_order(self) -> int:

@@ -1,31 +1,22 @@
-"""Meshes of the mid-surface alone, for scenes without a field: nothing around the shell is meshed.
+"""Mid-surfaces of one face each: plate, disc, sphere, ellipsoid, and the curves of the plane.
 
-Lengths are dimensionless. Edges of the shape carry its own names, edges on mirror planes ``symmetry_x`` and so on.
-Curves, which stand for surfaces in the reductions, have named ends instead; ``axis`` is an end on the axis.
+Where to find what: ``outline`` says what a geometry is before it is meshed. Lengths are dimensionless.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
-from netgen.meshing import MeshingParameters, MeshingStep
-from netgen.occ import ArcOfCircle, Axes, Box, Edge, Face, OCCGeometry, Pnt, Segment, Wire, WorkPlane
+from netgen.occ import ArcOfCircle, Axes, Box, Edge, Face, Pnt, Segment, WorkPlane
 from netgen.occ import Ellipsoid as EllipsoidSolid
 from netgen.occ import Sphere as SphereSolid
-from ngsolve import Mesh
 
+from embedding.geometry.outline import CLOSE, SEAM, CurveOutline, Outline, SurfaceOutline
 from embedding.geometry.reduction import Reduction
-from embedding.geometry.sizes import AT_POINTS, MeshSizes
-
-CLOSE = 1e-6
-SEAM = "seam"
-"""Name of edges that only join faces of one smooth surface."""
-Names = Callable[[Edge], str | None]
 
 
-def plate(length: float, width: float, sizes: MeshSizes) -> Mesh:
+def plate(length: float, width: float) -> SurfaceOutline:
     """Rectangle [0, length] x [0, width] in z = 0 with edges x0, x1, y0, y1; normal +z."""
     face = WorkPlane().Rectangle(length, width).Face()
 
@@ -35,28 +26,28 @@ def plate(length: float, width: float, sizes: MeshSizes) -> Mesh:
             return "x0" if abs(middle.x) < CLOSE else "x1"
         return "y0" if abs(middle.y) < CLOSE else "y1"
 
-    return surface_mesh(face, name, sizes)
+    return SurfaceOutline(face, name)
 
 
-def disc(reduction: Reduction, sizes: MeshSizes) -> Mesh:
+def disc(reduction: Reduction) -> Outline:
     """Unit disc in z = 0, or its radius in axisymmetry; edge ``rim``, normal +z."""
     if reduction.name == "axisymmetric":
         edge = Segment(Pnt(0, 0, 0), Pnt(1, 0, 0))
-        return curve_mesh([edge], lambda p: "axis" if p.x < CLOSE else "rim", sizes)
+        return CurveOutline((edge,), lambda p: "axis" if p.x < CLOSE else "rim")
     face = _halved(WorkPlane().Circle(0, 0, 1).Face(), reduction.planes)
-    return surface_mesh(face, lambda edge: on_plane(edge, reduction.planes) or "rim", sizes)
+    return SurfaceOutline(face, lambda edge: on_plane(edge, reduction.planes) or "rim")
 
 
-def sphere(reduction: Reduction, sizes: MeshSizes) -> Mesh:
+def sphere(reduction: Reduction) -> Outline:
     """Unit sphere (or the part between the mirror planes), or its meridian in axisymmetry."""
     if reduction.name == "axisymmetric":
         arc = ArcOfCircle(Pnt(0, -1, 0), Pnt(1, 0, 0), Pnt(0, 1, 0))
-        return curve_mesh([arc], lambda p: "axis", sizes)
+        return CurveOutline((arc,), lambda p: "axis")
     ball = _halved(SphereSolid(Pnt(0, 0, 0), 1.0), reduction.planes)
-    return surface_mesh(_curved_face(ball, reduction), lambda edge: on_plane(edge, reduction.planes) or SEAM, sizes)
+    return SurfaceOutline(_curved_face(ball, reduction), lambda edge: on_plane(edge, reduction.planes) or SEAM)
 
 
-def ellipsoid(semi_axes: tuple[float, float, float], reduction: Reduction, sizes: MeshSizes) -> Mesh:
+def ellipsoid(semi_axes: tuple[float, float, float], reduction: Reduction) -> Outline:
     """Ellipsoid with the semi-axes along x, y and z, or its meridian in axisymmetry (the first two are equal)."""
     if reduction.name == "axisymmetric":
         across, along = semi_axes[0], semi_axes[2]
@@ -65,37 +56,37 @@ def ellipsoid(semi_axes: tuple[float, float, float], reduction: Reduction, sizes
             frame, radii = Axes((0, 0, 0), h=(0, 1, 0)), (along, across)
         half = WorkPlane(frame).Ellipse(*radii).Face() * WorkPlane().MoveTo(0, -2).Rectangle(2, 4).Face()
         arcs = [edge for edge in half.edges if abs(edge.center.x) > CLOSE]
-        return curve_mesh(arcs, lambda p: "axis" if p.x < CLOSE else SEAM, sizes)
+        return CurveOutline(tuple(arcs), lambda p: "axis" if p.x < CLOSE else SEAM)
     a, b, c = semi_axes
     frame = Axes((0, 0, 0), n=(0, 0, 1), h=(1, 0, 0))
     solid = _halved(EllipsoidSolid(frame, c, a, b), reduction.planes)  # the first radius lies along n
-    return surface_mesh(_curved_face(solid, reduction), lambda edge: on_plane(edge, reduction.planes) or SEAM, sizes)
+    return SurfaceOutline(_curved_face(solid, reduction), lambda edge: on_plane(edge, reduction.planes) or SEAM)
 
 
-def ring(reduction: Reduction, sizes: MeshSizes) -> Mesh:
+def ring(reduction: Reduction) -> CurveOutline:
     """Cross-section of a unit cylinder: a circle, or the quarter between the mirror planes x and y."""
     if reduction.planes:
         half = math.sqrt(0.5)
         arcs = [ArcOfCircle(Pnt(1, 0, 0), Pnt(half, half, 0), Pnt(0, 1, 0))]
-        return curve_mesh(arcs, lambda p: "symmetry_x" if p.x < CLOSE else "symmetry_y", sizes)
+        return CurveOutline(tuple(arcs), lambda p: "symmetry_x" if p.x < CLOSE else "symmetry_y")
     arcs = [
         ArcOfCircle(Pnt(1, 0, 0), Pnt(0, 1, 0), Pnt(-1, 0, 0)),
         ArcOfCircle(Pnt(-1, 0, 0), Pnt(0, -1, 0), Pnt(1, 0, 0)),
     ]
-    return curve_mesh(arcs, lambda p: SEAM, sizes)
+    return CurveOutline(tuple(arcs), lambda p: SEAM)
 
 
-def strip(sizes: MeshSizes) -> Mesh:
+def strip() -> CurveOutline:
     """The segment from 0 to 1 on the x axis, with ends x0 and x1."""
     edge = Segment(Pnt(0, 0, 0), Pnt(1, 0, 0))
-    return curve_mesh([edge], lambda p: "x0" if p.x < 0.5 else "x1", sizes)
+    return CurveOutline((edge,), lambda p: "x0" if p.x < 0.5 else "x1")
 
 
-def arch(radius: float, half_angle: float, sizes: MeshSizes) -> Mesh:
+def arch(radius: float, half_angle: float) -> CurveOutline:
     """The arc within ``half_angle`` of the y axis around the origin, with ends end0 (negative x) and end1."""
     x, y = radius * math.sin(half_angle), radius * math.cos(half_angle)
     arc = ArcOfCircle(Pnt(-x, y, 0), Pnt(0, radius, 0), Pnt(x, y, 0))
-    return curve_mesh([arc], lambda p: "end0" if p.x < 0 else "end1", sizes)
+    return CurveOutline((arc,), lambda p: "end0" if p.x < 0 else "end1")
 
 
 def positive_box(planes: tuple[str, ...], reach: float) -> Any:
@@ -111,39 +102,6 @@ def on_plane(edge: Edge, planes: tuple[str, ...]) -> str | None:
         if all(abs(getattr(p, axis)) < CLOSE for p in points):
             return f"symmetry_{axis}"
     return None
-
-
-def real(edge: Edge) -> bool:
-    """Has the edge a length? Poles of curved faces are edges without one, which must not be asked for their place."""
-    return bool(edge.mass > CLOSE)
-
-
-def surface_mesh(shape: Any, name: Names, sizes: MeshSizes) -> Mesh:
-    """Mesh of all faces of an OCC ``shape`` as ``shell``, with its edges named and sized by ``name``.
-
-    An edge for which ``name`` answers None keeps the name it has.
-    """
-    for face in shape.faces:
-        face.name = "shell"
-    for edge in filter(real, shape.edges):
-        edge.name = name(edge) or edge.name
-        if edge.name:
-            edge.maxh = sizes.along(edge.name)
-    wanted = MeshingParameters(maxh=sizes.shell, grading=sizes.grading, perfstepsend=MeshingStep.MESHSURFACE)
-    for point in sizes.points:
-        wanted.RestrictH(*point, h=sizes.shell / AT_POINTS)
-    return Mesh(OCCGeometry(shape).GenerateMesh(mp=wanted))
-
-
-def curve_mesh(edges: list[Edge], name: Callable[[Pnt], str], sizes: MeshSizes) -> Mesh:
-    """Mesh of connected OCC ``edges`` in the plane as ``shell``, with the ends of the edges named by ``name``."""
-    wire = Wire(edges)
-    wire.edges.name = "shell"
-    for vertex in wire.vertices:
-        vertex.name = name(vertex.p)
-        if vertex.name in dict(sizes.edges):
-            vertex.maxh = sizes.along(vertex.name)
-    return Mesh(OCCGeometry(wire, dim=2).GenerateMesh(maxh=sizes.shell, grading=sizes.grading))
 
 
 def _halved(shape: Any, planes: tuple[str, ...]) -> Any:

@@ -1,94 +1,169 @@
-"""Meshes of a closed shell's mid-surface as an interface inside the free space around it.
+"""The space around a shell, with the shell as an interface inside it: geometry and mesh, before its sides are told.
 
-Both sides are meshed: ``inside`` and ``outside`` are materials, ``shell`` the interface between them and ``outer`` the
-ambient's outer boundary. Lengths are dimensionless (shell radius 1). Elements that touch the shell get a material of
-their own (``outside_near``, ``inside_near``): only there does the shell's motion enter the coupled assembly.
+Boundaries are called ``shell``, ``outer`` (where the moving ambient ends), ``body0`` and so on, and ``plane`` (mirror
+planes and the axis); materials ``outside``, ``beyond`` (the mapped exterior) and ``magnet0`` and so on (solid bodies).
+Lengths are dimensionless.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import netgen.meshing as netgen
 import numpy as np
-from netgen.occ import Edge, Glue, MoveTo, OCCGeometry, Pnt, WorkPlane
+from netgen.occ import Box, Glue, MoveTo, OCCGeometry, Pnt, WorkPlane
 from netgen.occ import Sphere as SphereSolid
-from ngsolve import Mesh
+from ngsolve import BND, Mesh
 
+from embedding.geometry.outline import CurveOutline, Outline, SurfaceOutline
 from embedding.geometry.reduction import Reduction
+from embedding.geometry.sizes import MeshSizes
 from embedding.geometry.surface import positive_box
 
-
-def sphere_in_ball(reduction: Reduction, radius: float, shell_size: float, far_size: float, grading: float) -> Mesh:
-    """Unit sphere inside a concentric ball of ``radius``: 3D (between mirror planes) or a meridian half plane."""
-    if reduction.name == "axisymmetric":
-        return _planar(
-            radius,
-            MoveTo(0, -2 * radius).Rectangle(2 * radius, 4 * radius).Face(),
-            shell_size,
-            far_size,
-            grading,
-        )
-    box = positive_box(reduction.planes, 2 * radius)
-    ball = SphereSolid(Pnt(0, 0, 0), 1.0) * box
-    air = (SphereSolid(Pnt(0, 0, 0), radius) * box) - ball
-    ball.mat("inside")
-    air.mat("outside")
-    _name_spheres([*ball.faces, *air.faces], radius, shell_size)
-    mesh = OCCGeometry(Glue([air, ball])).GenerateMesh(maxh=far_size, grading=grading)
-    return _with_near_layer(mesh)
+REACH = 1.5
+"""Where the mapped exterior ends in the mesh, over where it begins."""
+THINNEST = 1e-6
+ACROSS_GAP = 1.0
+"""Elements on the shell are at most this many times as large as the gap to a body."""
 
 
-def ring_in_disc(reduction: Reduction, radius: float, shell_size: float, far_size: float, grading: float) -> Mesh:
-    """Unit circle inside a concentric disc of ``radius`` (or the quarter between mirror planes x and y)."""
-    low = [0.0 if axis in reduction.planes else -2 * radius for axis in "xy"]
-    part = MoveTo(low[0], low[1]).Rectangle(2 * radius - low[0], 2 * radius - low[1]).Face()
-    return _planar(radius, part, shell_size, far_size, grading)
+def raw_mesh(outline: Outline, reduction: Reduction, sizes: MeshSizes) -> netgen.Mesh:
+    """Straight-sided mesh in which faces of the shell are called ``shell 0`` and so on (3D), edges ``shell`` (2D).
+
+    Raises:
+        RuntimeError: the mesh generator gave up.
+    """
+    sizes = _near_bodies(outline, reduction, sizes)
+    space = _Space(reduction, sizes)
+    if isinstance(outline, SurfaceOutline):
+        outline.prepare(sizes)
+        for number, face in enumerate(outline.shape.faces):
+            face.name, face.maxh = f"shell {number}", sizes.shell
+        whole = Glue([*space.parts(), outline.shape])
+        for face in whole.faces:
+            face.name = face.name or "plane"
+        geometry = OCCGeometry(whole)
+    else:
+        geometry = OCCGeometry(_section(outline, space, sizes), dim=2)
+    try:
+        return geometry.GenerateMesh(mp=_wanted(outline, sizes))
+    except Exception as error:  # netgen raises its own untyped exceptions
+        raise RuntimeError(f"the space around the shell could not be meshed ({error}): change the sizes") from error
 
 
-def _planar(radius: float, part: Any, shell_size: float, far_size: float, grading: float) -> Mesh:
-    inner = WorkPlane().Circle(0, 0, 1.0).Face() * part
-    air = (WorkPlane().Circle(0, 0, radius).Face() * part) - inner
-    inner.faces.name = "inside"
-    air.faces.name = "outside"
-    glued = Glue([air, inner])
-    for edge in glued.edges:
-        edge.name = _name(edge, radius)
+def _section(outline: CurveOutline, space: _Space, sizes: MeshSizes) -> Any:
+    for edge in outline.edges:
+        edge.name, edge.maxh = "shell", sizes.shell
+    whole = Glue([*space.parts(), *outline.edges])
+    for edge in whole.edges:
+        edge.name = edge.name or "plane"
         if edge.name == "shell":
-            edge.maxh = shell_size
-    return Mesh(OCCGeometry(glued, dim=2).GenerateMesh(maxh=far_size, grading=grading))
+            edge.maxh = sizes.shell
+            outline.name_ends(edge, sizes)
+    return whole
 
 
-def _name_spheres(faces: list[Any], radius: float, shell_size: float) -> None:
-    for face in faces:
-        face.name = _name(face, radius)
-        if face.name == "shell":
-            face.maxh = shell_size
+def _wanted(outline: Outline, sizes: MeshSizes) -> netgen.MeshingParameters:
+    """Element sizes. In space they are told at the vertices of a mesh of the shell alone: the size on a face does not
+    hold for the elements that stand on it."""
+    wanted = netgen.MeshingParameters(maxh=sizes.far, grading=sizes.grading)
+    if isinstance(outline, SurfaceOutline):
+        alone = outline.mesh(sizes)
+        for number, face in enumerate(outline.shape.faces):
+            face.name = f"shell {number}"
+        for point, size in zip(*_local_sizes(alone), strict=True):
+            wanted.RestrictH(*point, h=float(size))
+    return wanted
 
 
-def _name(shape: Any, radius: float) -> str:
-    """``plane`` if the face or edge is flat on a coordinate plane, else ``shell`` or ``outer`` by its size."""
-    low, high = shape.bounding_box
-    extents = [high.x - low.x, high.y - low.y, high.z - low.z]
-    if sum(extent < 1e-6 * radius for extent in extents) > (1 if isinstance(shape, Edge) else 0):
-        return "plane"
-    reach = max(abs(getattr(corner, axis)) for corner in (low, high) for axis in "xyz")
-    return "outer" if reach > 0.5 * (1 + radius) else "shell"
+def _local_sizes(mesh: Mesh) -> tuple[Any, Any]:
+    """Places of the vertices of a surface mesh and the mean length of the edges that meet there."""
+    points = np.array([v.point for v in mesh.vertices])
+    corners = np.array([[v.nr for v in element.vertices] for element in mesh.Elements(BND)])
+    ends = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [0, 2]]])
+    length = np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1)
+    total = np.bincount(ends.ravel(), np.repeat(length, 2), len(points))
+    return points, total / np.bincount(ends.ravel(), minlength=len(points))
 
 
-def _with_near_layer(mesh: netgen.Mesh) -> Mesh:
-    """Give the tetrahedra that share a vertex with the shell the materials ``outside_near`` and ``inside_near``."""
-    names = {i + 1: mesh.GetMaterial(i + 1) for i in range(len(mesh.GetRegionNames(dim=3)))}
-    near = {i: len(names) + i for i in names}
-    for i, name in names.items():
-        mesh.SetMaterial(near[i], f"{name}_near")
-    shell_faces = [k + 1 for k, face in enumerate(mesh.FaceDescriptors()) if face.bcname == "shell"]
-    triangles = mesh.Elements2D().NumPy()
-    on_shell = np.zeros(len(mesh.Points()) + 1, bool)
-    on_shell[triangles["nodes"][np.isin(triangles["index"], shell_faces), :3]] = True
-    elements = mesh.Elements3D()
-    touching = on_shell[elements.NumPy()["nodes"][:, :4]].any(axis=1)
-    for number in np.flatnonzero(touching):
-        element = elements[int(number)]
-        element.index = near[element.index]
-    return Mesh(mesh)
+def _near_bodies(outline: Outline, reduction: Reduction, sizes: MeshSizes) -> MeshSizes:
+    """Elements on the shell no larger than the gap to the nearest body."""
+    shapes = outline.edges if isinstance(outline, CurveOutline) else (outline.shape,)
+    bodies = [body.shape(reduction, 2 * sizes.radius) for body in sizes.bodies]
+    gap = min((shape.Distance(body) for shape in shapes for body in bodies), default=float("inf"))
+    if gap < THINNEST:
+        raise RuntimeError("a body touches the shell")
+    return replace(sizes, shell=min(sizes.shell, ACROSS_GAP * gap))
+
+
+class _Space:
+    """The parts of space between mirror planes, around the bodies, out to the outer boundary."""
+
+    def __init__(self, reduction: Reduction, sizes: MeshSizes) -> None:
+        self._reduction, self._sizes = reduction, sizes
+        self._reach = 2 * REACH * sizes.radius
+
+    def parts(self) -> list[Any]:
+        """The ambient, the mapped exterior if there is one, and the solid bodies; all named."""
+        bodies = [body.shape(self._reduction, self._reach) for body in self._sizes.bodies]
+        for number, body in enumerate(bodies):
+            self._name(body, f"body{number}")
+        window, inner = self._window(), self._ball(self._sizes.radius, "outer")
+        parts = [self._filled(self._without(inner, bodies) * window, "outside")]
+        if self._sizes.beyond:
+            exterior = self._ball(REACH * self._sizes.radius, "infinity") - self._ball(self._sizes.radius, "outer")
+            parts.append(self._filled(self._without(exterior, bodies) * window, "beyond"))
+        for number, (body, shape) in enumerate(zip(self._sizes.bodies, bodies, strict=True)):
+            if body.solid:
+                parts.append(self._filled(shape * window, f"magnet{number}"))
+        return parts
+
+    @staticmethod
+    def _without(part: Any, bodies: list[Any]) -> Any:
+        for body in bodies:
+            part = part - body
+        return part
+
+    def _ball(self, radius: float, name: str) -> Any:
+        if self._sizes.box is not None:
+            return self._box(name)
+        if self._reduction.dimension == 3:
+            ball = SphereSolid(Pnt(0, 0, 0), radius)
+        else:
+            ball = WorkPlane().Circle(0, 0, radius).Face()
+        self._name(ball, name)
+        return ball
+
+    def _box(self, name: str) -> Any:
+        box = self._sizes.box or ()
+        if self._reduction.dimension == 3:
+            shape = Box(Pnt(*(-b for b in box)), Pnt(*box))
+        else:
+            shape = MoveTo(-box[0], -box[1]).Rectangle(2 * box[0], 2 * box[1]).Face()
+        self._name(shape, name)
+        return shape
+
+    def _window(self) -> Any:
+        """The positive side of the mirror planes and of the axis; its faces are planes."""
+        reach, planes = self._reach, self._reduction.planes
+        if self._reduction.dimension == 3:
+            window = positive_box(planes, reach)
+        else:
+            low = [0.0 if axis in planes else -reach for axis in "xy"]
+            if self._reduction.name == "axisymmetric":
+                low = [0.0, -reach]
+            window = MoveTo(low[0], low[1]).Rectangle(reach - low[0], reach - low[1]).Face()
+        self._name(window, "plane")
+        return window
+
+    def _name(self, shape: Any, name: str) -> None:
+        for part in shape.faces if self._reduction.dimension == 3 else shape.edges:
+            part.name = name
+
+    def _filled(self, shape: Any, material: str) -> Any:
+        if self._reduction.dimension == 3:
+            shape.mat(material)
+        else:
+            shape.faces.name = material
+        return shape

@@ -21,7 +21,6 @@ from ngsolve import BND
 
 from embedding.coupling.linear import LinearSolverError
 from embedding.coupling.system import System
-from embedding.geometry.domain import Domain
 from embedding.geometry.ends import unknowns_on
 from embedding.shell.bending import CurveBending
 from embedding.solving.events import StepRecord
@@ -124,7 +123,7 @@ class Enriched(Problem):
         self.scene, self.plan, self.scales = problem.scene, problem.plan, problem.scales
         self.reduction = problem.reduction
         sizes = replace(problem.domain.sizes, order=problem.domain.sizes.order + 1)
-        self.domain = Domain(problem.mesh, problem.reduction, problem.scene.shell.shape, sizes)
+        self.domain = replace(problem.domain, sizes=sizes)
         self.system = System(self.domain, physics_of(self.scene, self.plan, self.scales, self.domain))
         for name in self.system.unknowns.names:
             self._carry(name, problem)

@@ -14,9 +14,9 @@ from embedding import Plate, SceneError
 from embedding.geometry import meshing
 from embedding.geometry.domain import Domain, MeshSizes, build
 from embedding.geometry.facets import Facets, OneSidedError
+from embedding.geometry.outline import SurfaceOutline
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.spaces import scalar_mask
-from embedding.geometry.surface import surface_mesh
 from tests.geometry.shapes import BODIES, CASES, body
 
 SIZES = MeshSizes(0.3, 0.3, 0.0, 0.3, 2)
@@ -28,7 +28,7 @@ def folded(angle: float, *, reverse: bool = False) -> Domain:
     flat = WorkPlane().Rectangle(1, 1).Face()
     frame = Axes((1, 0, 0), n=(-math.sin(turn), 0, math.cos(turn)), h=(math.cos(turn), 0, math.sin(turn)))
     raised = WorkPlane(frame).Rectangle(1, 1).Face()
-    mesh = surface_mesh(Glue([flat, raised.Reversed() if reverse else raised]), lambda edge: "x0", SIZES)
+    mesh = SurfaceOutline(Glue([flat, raised.Reversed() if reverse else raised]), lambda edge: "x0").mesh(SIZES)
     return Domain(mesh, Reduction("3d"), Plate(length=2.0, width=1.0), SIZES)
 
 

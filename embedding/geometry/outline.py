@@ -1,0 +1,77 @@
+"""The geometry of a mid-surface before it is meshed: faces in space, or edges that stand for them in a reduction.
+
+Lengths are dimensionless. Edges of the shape carry its own names, edges on mirror planes ``symmetry_x`` and so on.
+Curves, which stand for surfaces in the reductions, have named ends instead; ``axis`` is an end on the axis.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from netgen.meshing import MeshingParameters, MeshingStep
+from netgen.occ import Edge, OCCGeometry, Pnt, Wire
+from ngsolve import Mesh
+
+from embedding.geometry.sizes import AT_POINTS, MeshSizes
+
+CLOSE = 1e-6
+SEAM = "seam"
+"""Name of edges that only join faces of one smooth surface."""
+Names = Callable[[Edge], str | None]
+
+
+@dataclass(frozen=True)
+class SurfaceOutline:
+    """All faces of an OCC ``shape``; an edge for which ``name`` answers None keeps the name it has."""
+
+    shape: Any
+    name: Names
+
+    def prepare(self, sizes: MeshSizes) -> None:
+        """Name and size the faces and edges."""
+        for face in self.shape.faces:
+            face.name = "shell"
+        for edge in filter(real, self.shape.edges):
+            edge.name = self.name(edge) or edge.name
+            if edge.name:
+                edge.maxh = sizes.along(edge.name)
+
+    def mesh(self, sizes: MeshSizes) -> Mesh:
+        """Mesh of the surface alone, as ``shell``."""
+        self.prepare(sizes)
+        wanted = MeshingParameters(maxh=sizes.shell, grading=sizes.grading, perfstepsend=MeshingStep.MESHSURFACE)
+        for point in sizes.points:
+            wanted.RestrictH(*point, h=sizes.shell / AT_POINTS)
+        return Mesh(OCCGeometry(self.shape).GenerateMesh(mp=wanted))
+
+
+@dataclass(frozen=True)
+class CurveOutline:
+    """Connected OCC ``edges`` in the plane, with the ends of the edges named by ``name``."""
+
+    edges: tuple[Edge, ...]
+    name: Callable[[Pnt], str]
+
+    def name_ends(self, shape: Any, sizes: MeshSizes) -> None:
+        """Name and size the vertices of ``shape``, those of the curve or of what it became a part of."""
+        for vertex in shape.vertices:
+            vertex.name = self.name(vertex.p)
+            if vertex.name in dict(sizes.edges):
+                vertex.maxh = sizes.along(vertex.name)
+
+    def mesh(self, sizes: MeshSizes) -> Mesh:
+        """Mesh of the curve alone, as ``shell``."""
+        wire = Wire(list(self.edges))
+        wire.edges.name = "shell"
+        self.name_ends(wire, sizes)
+        return Mesh(OCCGeometry(wire, dim=2).GenerateMesh(maxh=sizes.shell, grading=sizes.grading))
+
+
+Outline = SurfaceOutline | CurveOutline
+
+
+def real(edge: Edge) -> bool:
+    """Has the edge a length? Poles of curved faces are edges without one, which must not be asked for their place."""
+    return bool(edge.mass > CLOSE)
