@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from netgen.occ import ArcOfCircle, Axes, Box, Edge, Face, Pnt, Segment, WorkPlane
+from netgen.occ import ArcOfCircle, Axes, Box, Compound, Edge, Pnt, Segment, WorkPlane
 from netgen.occ import Ellipsoid as EllipsoidSolid
 from netgen.occ import Sphere as SphereSolid
 
@@ -41,10 +41,12 @@ def disc(reduction: Reduction) -> Outline:
 def sphere(reduction: Reduction) -> Outline:
     """Unit sphere (or the part between the mirror planes), or its meridian in axisymmetry."""
     if reduction.name == "axisymmetric":
-        arc = ArcOfCircle(Pnt(0, -1, 0), Pnt(1, 0, 0), Pnt(0, 1, 0))
-        return CurveOutline((arc,), lambda p: "axis")
+        half = math.sqrt(0.5)
+        lower = ArcOfCircle(Pnt(0, -1, 0), Pnt(half, -half, 0), Pnt(1, 0, 0))
+        upper = ArcOfCircle(Pnt(1, 0, 0), Pnt(half, half, 0), Pnt(0, 1, 0))
+        return CurveOutline((lower, upper), lambda p: "axis" if p.x < CLOSE else SEAM)
     ball = _halved(SphereSolid(Pnt(0, 0, 0), 1.0), reduction.planes)
-    return SurfaceOutline(_curved_face(ball, reduction), lambda edge: on_plane(edge, reduction.planes) or SEAM)
+    return SurfaceOutline(_curved_faces(ball, reduction), lambda edge: on_plane(edge, reduction.planes) or SEAM)
 
 
 def ellipsoid(semi_axes: tuple[float, float, float], reduction: Reduction) -> Outline:
@@ -60,7 +62,7 @@ def ellipsoid(semi_axes: tuple[float, float, float], reduction: Reduction) -> Ou
     a, b, c = semi_axes
     frame = Axes((0, 0, 0), n=(0, 0, 1), h=(1, 0, 0))
     solid = _halved(EllipsoidSolid(frame, c, a, b), reduction.planes)  # the first radius lies along n
-    return SurfaceOutline(_curved_face(solid, reduction), lambda edge: on_plane(edge, reduction.planes) or SEAM)
+    return SurfaceOutline(_curved_faces(solid, reduction), lambda edge: on_plane(edge, reduction.planes) or SEAM)
 
 
 def ring(reduction: Reduction) -> CurveOutline:
@@ -108,7 +110,7 @@ def _halved(shape: Any, planes: tuple[str, ...]) -> Any:
     return shape * positive_box(planes, 2.0) if planes else shape
 
 
-def _curved_face(solid: Any, reduction: Reduction) -> Face:
-    """The one face of a solid that does not lie on a mirror plane."""
+def _curved_faces(solid: Any, reduction: Reduction) -> Any:
+    """The faces of a solid that do not lie on a mirror plane; where its seam lies between the planes there are two."""
     flat = (any(abs(getattr(face.center, axis)) < CLOSE for axis in reduction.planes) for face in solid.faces)
-    return next(face for face, is_flat in zip(solid.faces, flat, strict=True) if not is_flat)
+    return Compound([face for face, is_flat in zip(solid.faces, flat, strict=True) if not is_flat])

@@ -86,10 +86,6 @@ def test_the_near_layer_is_all_that_touches_the_shell(name: str) -> None:
     assert domain.near("inside") == "inside_near"
 
 
-def test_in_the_plane_every_element_is_near() -> None:
-    assert body("ring", 0.4, 2, radius=3.0).near("outside") == "outside.*"
-
-
 PARTS = {"octant": 8, "quarter disc": 4, "quarter ring": 4}
 
 

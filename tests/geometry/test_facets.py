@@ -137,13 +137,18 @@ def test_a_surface_with_one_side_is_refused() -> None:
         _ = strip.turns
 
 
+def alone(mesh: Mesh) -> meshing.Meshed:
+    none = np.zeros((0, 2), np.int64)
+    return meshing.Meshed(mesh, (0,), none[:, 0], none)
+
+
 def test_bad_meshes_end_in_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     shape, sizes = CASES["annulus"].shape, MeshSizes(0.3, 0.3, 0.0, 0.3, 1)
-    monkeypatch.setattr(meshing, "mesh", lambda *_: moebius(20, False))
+    monkeypatch.setattr(meshing, "mesh", lambda *_: alone(moebius(20, False)))
     with pytest.raises(RuntimeError, match="has holes"):
         build(shape, Reduction("3d"), sizes)
     monkeypatch.setattr(Facets, "on_edges", True)
-    monkeypatch.setattr(meshing, "mesh", lambda *_: moebius(20, True))
+    monkeypatch.setattr(meshing, "mesh", lambda *_: alone(moebius(20, True)))
     with pytest.raises(SceneError, match="only one side"):
         build(shape, Reduction("3d"), sizes)
 
