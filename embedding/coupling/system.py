@@ -25,6 +25,9 @@ from embedding.geometry.places import displaced
 from embedding.geometry.spaces import Mask
 from embedding.shell.point_loads import point_load_vector
 
+SADDLE = ("moment", "pressure", "tau_t", "tau_b", "phi", "jump")
+"""Unknowns in which the Lagrangian is stationary but not least: each brings one negative eigenvalue to its matrix."""
+
 
 class System:
     """The coupled shell, field and moving ambient on one mesh, with its present state.
@@ -187,10 +190,16 @@ class System:
 
     @property
     def saddle_count(self) -> int:
-        """Negative eigenvalues that the tangent of a stable shell without a field has: one for each multiplier, of the
-        volume and of rigid motions, and one for each moment that is not condensed out."""
-        moments = self._solver.kept[self.unknowns.range("moment")].sum() if "moment" in self.unknowns else 0
-        return int(moments) + len(self.unknowns.rigid) + ("pressure" in self.unknowns and "pressure" not in self._held)
+        """Negative eigenvalues that the tangent of a stable shell has: one for each free unknown in ``SADDLE`` that is
+        not condensed out, and for each multiplier of a rigid motion.
+
+        The anchors of the faces change none: per unit of area y and tau meet in [[k - a, -1], [-1, a]], with k from
+        the field and a the anchor, whose determinant is negative as long as k < 1 / a, a million shear moduli per
+        shell size.
+        """
+        kept = self._solver.kept
+        counted = [name for name in SADDLE if name in self.unknowns]
+        return sum(int(kept[self.unknowns.range(name)].sum()) for name in counted) + len(self.unknowns.rigid)
 
     def newton_update(self) -> tuple[Any, float]:
         """Solve the linearised joint system; returns the step to add and its decrement.

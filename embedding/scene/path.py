@@ -53,9 +53,10 @@ class Stage(Part):
     ``control`` "load" ramps linearly in ``steps`` steps (10 unless given) and stops at a limit point. "arc-length"
     follows the equilibrium path through limit points until the end is met for the first time, in steps of its own
     choice; ``steps`` then bounds what one step may change. "displacement" needs ``until`` and reaches it in ``steps``
-    equal parts of it, the load being unknown. "auto" is arc length where only ``mechanical`` changes and ``steps`` is
-    not given. With ``until`` the stage ends at that displacement, at whatever load it takes. ``branch`` says where to
-    leave the path for another.
+    equal parts of it, the load being unknown. "auto" is arc length where a load or the field changes and neither
+    ``steps`` nor ``volume_ratio`` is given; the square of ``field`` then goes linearly with ``mechanical``, as forces
+    do. With ``until`` the stage ends at that displacement, at whatever load it takes. ``branch`` says where to leave
+    the path for another.
     """
 
     name: Name = "load"

@@ -72,8 +72,9 @@ class ArcStage:
                     return Result.MAX_ARC
                 reason = self._step(walk)
                 if reason is not None:
+                    faded = self.path.faded
                     self.path.restore(walk.here.saved)
-                    return reason
+                    return Result.FIELD_VANISHED if faded else reason
         return Result.CONVERGED
 
     def _launched(self, goal: Condition) -> Walk | Result:

@@ -27,6 +27,12 @@ BESIDE = (0.02, 5e-4)
 """How far beside where it is expected a critical point is looked for, in parts of the step: first, then closer."""
 CLOSE = 3.0
 """A bracket of this many times the closer distance is small enough."""
+BLURRED = 0.06
+"""Beside a bifurcation two branches may be too near to be told apart, or joined to one by errors of the mesh. A state
+of the path that is lost there ends the search if the bracket is this part of the step; if it is wider, its middle is
+tried first."""
+ASIDE = 0.02
+"""A state found this far from where it was expected, in parts of the bracket, lies on another branch."""
 MOST_ROUNDS = 8
 SUBSPACE, ROUNDS, SETTLED = 3, 12, 1e-4
 """Vectors and rounds of the subspace iteration, and the relative change of the eigenvalue that ends it."""
@@ -88,7 +94,16 @@ class Search:
             tangent = tangent.scaled(-1.0)
         equilibrium = self._corrector.equilibrium
         values, parameter = equilibrium.values(), equilibrium.parameter
+        missed = Direction(values - guess.values, parameter - guess.parameter)
+        if self._metric.length(missed) > ASIDE * (high.place - low.place):
+            raise LostError(f"another branch at {place}")
         return Point(values, parameter, place, tangent, equilibrium.unstable_modes(), equilibrium.save())
+
+    def _probe_if_any(self, low: Point, high: Point, place: float) -> Point | None:
+        try:
+            return self._probe(low, high, place)
+        except LostError:
+            return None
 
     def _limit(self, low: Point, high: Point) -> tuple[Point, Point, Critical] | None:
         """Where the rate of the parameter changes its sign, with the points beside it."""
@@ -113,10 +128,15 @@ class Search:
             yield critical
 
     def _first_change(self, low: Point, high: Point) -> tuple[Critical, Point]:
-        """The first place where the number of unstable modes changes, and the state close behind it."""
+        """The first place where the number of unstable modes changes, and a state behind it.
+
+        That is the last one seen with as many: close to the point the other branch is felt.
+        """
         count, values, modes = low.unstable, dict[float, float](), list[Array]()
+        seen = [high]
 
         def aside(probe: Point) -> bool:
+            seen.append(probe)
             try:
                 values[probe.place], vectors = nearest_mode(self._corrector.equilibrium, modes[-1] if modes else None)
                 modes.append(vectors)
@@ -127,21 +147,29 @@ class Search:
         def root(first: Point, last: Point) -> float:
             return _secant(values, first.place, last.place)
 
-        before, after = self._closing_in(low, high, root, aside)
+        before, after = self._closing_in(low, high, root, aside, blurred=True)
         if not modes:
             raise LostError("no mode")
         point = self._interpolated(before, after, root(before, after))
         mode = self._normalised(modes[-1][:, 0])
         unstable = (before.unstable, after.unstable)
-        return Critical("bifurcation", point.parameter, mode, unstable, point), after
+        last = max((probe for probe in seen if probe.unstable == after.unstable), key=lambda probe: probe.place)
+        return Critical("bifurcation", point.parameter, mode, unstable, point), last
 
     def _closing_in(
-        self, low: Point, high: Point, expected: Callable[[Point, Point], float], aside: Callable[[Point], bool]
+        self,
+        low: Point,
+        high: Point,
+        expected: Callable[[Point, Point], float],
+        aside: Callable[[Point], bool],
+        *,
+        blurred: bool = False,
     ) -> tuple[Point, Point]:
         """Two solved states close to either side of what is expected at a place that depends on such a pair.
 
         ``aside`` says whether a state is still on the side of ``low``. The critical state itself is not solved for:
-        there the matrix is singular, and between states so close the cubic is as exact as they are. Raises LostError.
+        there the matrix is singular, and between states so close the cubic is as exact as they are. If it is
+        ``blurred``, a wider bracket is taken where states between are lost; else LostError is raised.
         """
         whole = high.place - low.place
         for number in range(MOST_ROUNDS):
@@ -150,7 +178,11 @@ class Search:
             for at in (place - away, place + away):
                 if not low.place < at < high.place:
                     continue
-                probe = self._probe(low, high, at)
+                probe = self._probe_if_any(low, high, at) if blurred else self._probe(low, high, at)
+                if probe is None and high.place - low.place > BLURRED * whole:
+                    probe = self._probe_if_any(low, high, 0.5 * (low.place + high.place))
+                if probe is None:
+                    return low, high
                 low, high = (probe, high) if aside(probe) else (low, probe)
             if high.place - low.place <= CLOSE * whole * BESIDE[1]:
                 return low, high

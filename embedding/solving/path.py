@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -20,15 +21,22 @@ class Target:
     volume: float | None
     pressure: float | None = None
 
-    def between(self, start: Target, fraction: float) -> Target:
-        """The target at ``fraction`` of the way from ``start`` to here."""
+    def between(self, start: Target, fraction: float, *, squared: bool = False) -> Target:
+        """The target at ``fraction`` of the way from ``start`` to here.
+
+        ``squared``: the square of the field's factor goes there linearly, as the forces of the field do.
+        """
 
         def mix(a: float | None, b: float | None) -> float | None:
             return None if b is None else (b if a is None else a + fraction * (b - a))
 
+        field = start.field + fraction * (self.field - start.field)
+        if squared:
+            square = start.field**2 + fraction * (self.field**2 - start.field**2)
+            field = math.copysign(math.sqrt(max(square, 0.0)), start.field + self.field)
         return Target(
             start.mechanical + fraction * (self.mechanical - start.mechanical),
-            start.field + fraction * (self.field - start.field),
+            field,
             mix(start.volume, self.volume),
             mix(start.pressure, self.pressure),
         )
@@ -56,8 +64,8 @@ def followed(stage: Stage, start: Target, end: Target, *, with_field: bool, join
         return stage.control in ("arc-length", "displacement")
     if stage.until is not None or stage.branch is not None:
         return True
-    fixed = not with_field or start.field == end.field
-    return stage.steps is None and stage.volume_ratio is None and fixed and start.mechanical != end.mechanical
+    changes = start.mechanical != end.mechanical or (with_field and start.field != end.field)
+    return stage.steps is None and stage.volume_ratio is None and changes
 
 
 def planned_steps(stage: Stage, *, with_field: bool, joint: bool = True) -> int | None:

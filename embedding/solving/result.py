@@ -15,7 +15,8 @@ class Result(Enum):
     )
     PULL_IN = (
         "a limit point under the prescribed field: beyond it no equilibrium is near. "
-        "Control the enclosed volume and keep the field, or stop at a lower field"
+        'Follow the path beyond it (control = "arc-length" in a stage), control the charge in place of the voltage, '
+        "or stop at a lower field"
     )
     COMPRESSIVE_MEMBRANE = (
         "the membrane is in compression, where it has no stiffness of its own and wrinkles. "
@@ -36,6 +37,10 @@ class Result(Enum):
     MAX_ARC = (
         "the path was followed for the longest way allowed without meeting the end of the stage: past a limit point "
         "the load may never be reached. Allow a longer way (solver.max_arc), or end the stage at a displacement (until)"
+    )
+    FIELD_VANISHED = (
+        "the path went back to where the field vanishes: past a limit point what the stage prescribes is not reached. "
+        "End the stage at a displacement (until) before that"
     )
     STAGGERED_DIVERGED = (
         "field and shell, solved in turn, do not settle: each changes what the other does too much. "

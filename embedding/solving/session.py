@@ -117,10 +117,14 @@ class Session:
     def told(self, result: Result) -> str:
         """The message of a solve that ended with ``result``."""
         done = f"after {len(self.steps)} accepted steps" if self.steps else "before the first step was accepted"
-        load = self.at.report()
-        if self.problem.system.physics.field is None:
+        load, with_field = self.at.report(), self.problem.system.physics.field is not None
+        if not with_field:
             load.pop("field", None)
         where = ", ".join(f"{name} {value:.4g}" for name, value in load.items())
-        passed = "".join(f"; passed a {p.kind} point at mechanical {p.factor_mechanical:.5g}" for p in self.critical)
+        passed = "".join(
+            f"; passed a {point.kind} point at mechanical {point.factor_mechanical:.5g}"
+            + (f", field {point.factor_field:.5g}" if with_field else "")
+            for point in self.critical
+        )
         detail = f"{self.detail}: " if self.detail else ""
         return f"stopped {done} (last good load: {where}{passed}): {detail}{result.advice}"

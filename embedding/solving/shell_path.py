@@ -1,7 +1,8 @@
 """A stage of a scene as an equilibrium path: the parameter runs from 0 at the start of the stage to 1 at its end.
 
 Everything a stage changes - loads, prescribed displacements, a field, a volume - depends on the one parameter t, and
-the path may go through values of t below 0 or beyond 1.
+the path may go through values of t below 0 or beyond 1. Where the forces of the field are even in its factor, it is the
+square of the factor that is linear in t: out of no field, the response to the factor itself would be zero.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 from ngsolve import BilinearForm, InnerProduct
 
+from embedding.coupling.physics import FieldPhysics
 from embedding.solving.continuation import Array, Linearised
 from embedding.solving.newton import Clock
 from embedding.solving.path import Target
@@ -31,11 +33,14 @@ class ShellPath:
         self.problem, self.start, self.end, self.clock = problem, start, end, clock
         self._system = problem.system
         self._state = problem.system.unknowns.state.vec
-        self._parameter = 0.0
+        self._parameter, self.faded = 0.0, False
+        field = problem.system.physics.field
+        self._squared = field is not None and _even(field) and start.field != end.field and start.field * end.field >= 0
+        self._scales = field is not None and field.matter.saturation is None
 
     def target(self, parameter: float) -> Target:
         """The load at ``parameter``."""
-        return self.end.between(self.start, parameter)
+        return self.end.between(self.start, parameter, squared=self._squared)
 
     @property
     def parameter(self) -> float:
@@ -47,7 +52,11 @@ class ShellPath:
         return np.array(self._state.FV().NumPy())
 
     def move(self, values: Array, parameter: float, *, curved: bool = False) -> bool:
-        """Go to another state; False (and nothing moved) if elements of the ambient would turn over."""
+        """Go to another state; False (and nothing moved) if elements of the ambient would turn over, or if there is no
+        such state for want of a field (``faded``)."""
+        self.faded = self._square(parameter) < 0.0
+        if self.faded:
+            return False
         before = self.values(), self._parameter
         self._put(values, parameter)
         start = time.perf_counter()
@@ -83,17 +92,42 @@ class ShellPath:
         return Linearised(residual, load, update, response)
 
     def _difference(self) -> tuple[Array, Array]:
-        """Derivatives of the residual and of the prescribed unknowns in the parameter, by central differences."""
+        """Derivatives of the residual and of the prescribed unknowns in the parameter, by central differences.
+
+        With the square of the field's factor as the parameter, the potential as a whole counts as prescribed: that of
+        the present shape, which goes with the factor. The residual is then linear in the parameter.
+        """
         step = SMALL if self._system.physics.prescribed or self.start.field != self.end.field else WHOLE
-        values = self.values()
+        values, here = self.values(), self._parameter
         sides = []
-        for sign in (-1.0, 1.0):
-            self._load(self._parameter + sign * step)
-            sides.append((self._numbers(self._system.residual()), self.values()))
+        for side in (here - step, here + step):
+            at = here if self._square(side) < 0.0 else side
+            self._load(at)
+            if self._squared:
+                self._follow_field(values, self.target(here).field, self.target(at).field)
+            sides.append((at, self._numbers(self._system.residual()), self.values()))
             self._state.FV().NumPy()[:] = values
-        self._load(self._parameter)
-        (low, before), (high, after) = sides
-        return (high - low) / (2 * step), (after - before) / (2 * step)
+        self._load(here)
+        (start, low, before), (stop, high, after) = sides
+        return (high - low) / (stop - start), (after - before) / (stop - start)
+
+    def _square(self, parameter: float) -> float:
+        """The square of the field's factor, where that is linear in the parameter; it may be negative."""
+        start, end = self.start.field**2, self.end.field**2
+        return start + parameter * (end - start) if self._squared else 0.0
+
+    def _follow_field(self, values: Array, present: float, factor: float) -> None:
+        """Bring the potential to a ``factor`` of the field from that in ``values``, at the ``present`` factor."""
+        system = self._system
+        if system.potential is None or factor == present:
+            return
+        if present == 0.0 or not self._scales:
+            system.potential.solve()
+            return
+        for name in ("phi", "jump"):
+            if name in system.unknowns:
+                where = system.unknowns.range(name)
+                self._state.FV().NumPy()[where] = factor / present * values[where]
 
     def solve(self, right_side: Array) -> Array:
         """K^-1 times ``right_side``. Raises LinearSolverError."""
@@ -142,3 +176,8 @@ class ShellPath:
     @staticmethod
     def _numbers(vector: Any) -> Array:
         return np.array(vector.FV().NumPy())
+
+
+def _even(field: FieldPhysics) -> bool:
+    """Are the forces the same with the field turned round? A remanence of the shell does not turn with it."""
+    return field.matter.remanence is None

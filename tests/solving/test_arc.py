@@ -151,8 +151,10 @@ def test_a_pull_in_is_passed() -> None:
     surroundings = {"field": "electric", "outer": "grounded", "radius": 2 * R}
     path = [{"control": "arc-length", "until": pole(1.35)}]
     solution = followed(ambient=surroundings, faces=electrodes, loads={}, path=path, discretisation={})
-    (limit,) = solution.critical_points
-    assert limit.kind == "limit" and limit.unstable == (None, None)
+    (limit,) = (point for point in solution.critical_points if point.kind == "limit")
+    # So near a ground the sphere may leave its shape (P_2) at next to the same voltage, where a bifurcation is found.
+    counts = [point.unstable for point in solution.critical_points]
+    assert counts == [(number, number + 1) for number in range(len(counts))]
     assert limit.scalars["stretch"] == pytest.approx(1.24062, abs=5e-3)  # membrane; of second order in T/R = 0.05
 
 

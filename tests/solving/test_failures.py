@@ -32,9 +32,11 @@ def test_limit_point() -> None:
 def test_pull_in() -> None:
     """Inside a grounded sphere of twice the radius the voltage has a maximum at a stretch of about 1.24."""
     voltages = {"top": {"voltage": 4e5}, "bottom": {"voltage": 4e5}}
-    solution = ended(ambient={"field": "electric", "outer": "grounded", "radius": 0.04}, faces=voltages)
+    surroundings = {"field": "electric", "outer": "grounded", "radius": 0.04}
+    solution = ended(ambient=surroundings, faces=voltages, path=[{"control": "load"}])
     assert solution.result is Result.PULL_IN
     assert solution["stretch"][-1] == pytest.approx(1.24, abs=0.03)
+    assert 'control = "arc-length"' in solution.message
 
 
 def test_compression() -> None:

@@ -77,6 +77,9 @@ def test_between_targets() -> None:
     assert between.mechanical == pytest.approx(0.4)
     assert (between.field, between.volume, between.pressure) == (0.75, None, 2.0)
     assert end.between(start, 1.0) == Target(1.0, 0.0, None, -1.0)
+    assert end.between(start, 0.25, squared=True).field == pytest.approx(0.75**0.5)
+    reversed_field = Target(0.0, -2.0, None).between(Target(0.0, -1.0, None), 0.5, squared=True)
+    assert reversed_field.field == pytest.approx(-(2.5**0.5))
     controlled = Target(1.0, 1.0, 8.0)
     assert controlled.between(Target(0.0, 0.0, 1.0), 0.5).volume == 4.5
     assert controlled.between(Target(0.0, 0.0, None), 0.5).volume == 8.0
@@ -97,7 +100,7 @@ def test_a_target_reports_what_it_controls() -> None:
     ("stage", "with_field", "expected"),
     [
         ({}, False, None),
-        ({}, True, 10),  # the field is ramped with the loads
+        ({}, True, None),
         ({"steps": 7}, False, 7),
         ({"steps": 7, "control": "arc-length"}, True, None),
         ({"control": "load"}, False, 10),
@@ -114,6 +117,8 @@ def test_which_stages_are_followed(stage: dict[str, Any], with_field: bool, expe
 def test_a_load_that_is_held_needs_no_path() -> None:
     here = Target(1.0, 0.0, None)
     assert not followed(Stage(), here, Target(1.0, 0.0, None), with_field=False)
+    assert not followed(Stage(), here, Target(1.0, 1.0, None), with_field=False)
+    assert followed(Stage(), here, Target(1.0, 1.0, None), with_field=True)
     assert followed(Stage(field=0.0), Target(0.0, 0.0, None), here, with_field=True)
 
 
