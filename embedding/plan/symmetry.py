@@ -49,7 +49,7 @@ def _mirrored(scene: Scene, axis: int) -> bool:
     """Is the scene its own image in the coordinate plane ``axis`` (the potential up to its sign)?"""
     if not mirrored_loads(scene, axis):
         return False
-    applied = scene.ambient.applied_field if scene.ambient is not None else (0.0, 0.0, 0.0)
+    applied = scene.ambient.uniform_field if scene.ambient is not None else (0.0, 0.0, 0.0)
     if applied[axis] == 0.0:
         return True
     alone = not any(applied[other] for other in range(3) if other != axis)
@@ -61,4 +61,4 @@ def odd_planes(scene: Scene, reduction: Reduction) -> tuple[str, ...]:
     """Mirror planes across which the applied field points: there the potential is zero."""
     if scene.ambient is None:
         return ()
-    return tuple(axis for axis in reduction.planes if scene.ambient.applied_field[AXES.index(axis)] != 0.0)
+    return tuple(axis for axis in reduction.planes if scene.ambient.uniform_field[AXES.index(axis)] != 0.0)

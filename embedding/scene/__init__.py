@@ -1,7 +1,8 @@
 """What the user states: shell, supports, loads, ambient, path, options; in SI units, checked at the door."""
 
 from embedding.errors import Problem, SceneError
-from embedding.scene.ambient import Ambient, Electrode, Faces
+from embedding.scene.ambient import Ambient, Electrode, Faces, LineCurrent
+from embedding.scene.bodies import Body, BoxBody, CylinderBody, HalfSpace, SphereBody
 from embedding.scene.expression import Expression, parse_expression
 from embedding.scene.loads import EdgeMoment, EdgeTraction, LineLoad, Loads, PointLoad
 from embedding.scene.materials import Gent, Material, MooneyRivlin, NeoHookean, Ogden, StVenantKirchhoff, Yeoh
@@ -31,20 +32,25 @@ from embedding.scene.shapes import (
 )
 from embedding.scene.shell import Region, Shell
 from embedding.scene.supports import Support
-from embedding.scene.surface_fields import ForceField, PressureField, ThicknessField
+from embedding.scene.surface_fields import PressureField, ThicknessField
 from embedding.scene.symmetry import axisymmetry_problems
 from embedding.scene.toml_io import load_scene
+from embedding.scene.vector_fields import AppliedField, ForceField, PolarisationField, RemanenceField
 
 __all__ = [
     "EPSILON_0",
     "MU_0",
     "Ambient",
     "Annulus",
+    "AppliedField",
     "Arch",
+    "Body",
+    "BoxBody",
     "Branch",
     "Cap",
     "Cone",
     "Cylinder",
+    "CylinderBody",
     "Disc",
     "Discretisation",
     "EdgeMoment",
@@ -55,8 +61,10 @@ __all__ = [
     "Faces",
     "ForceField",
     "Gent",
+    "HalfSpace",
     "Hemisphere",
     "InfiniteCylinder",
+    "LineCurrent",
     "LineLoad",
     "Loads",
     "Material",
@@ -67,9 +75,11 @@ __all__ = [
     "Output",
     "Plate",
     "PointLoad",
+    "PolarisationField",
     "PressureField",
     "Problem",
     "Region",
+    "RemanenceField",
     "Scales",
     "Scene",
     "SceneError",
@@ -77,6 +87,7 @@ __all__ = [
     "Shell",
     "Solver",
     "Sphere",
+    "SphereBody",
     "StVenantKirchhoff",
     "Stage",
     "Strip",

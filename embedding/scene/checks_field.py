@@ -86,7 +86,7 @@ def _charged_cylinder(scene: Scene) -> Iterator[Problem]:
 def _axial_field(scene: Scene) -> Iterator[Problem]:
     if scene.ambient is None or scene.shell.shape.reductions != ("plane-strain",):
         return
-    axial = scene.ambient.applied_field[2]
+    axial = scene.ambient.uniform_field[2]
     if axial != 0.0:
         unit = "V/m" if scene.ambient.field == "electric" else "A/m"
         message = f"{axial} {unit} is not allowed: must be 0 along the axis of an infinite cylinder"

@@ -10,7 +10,8 @@ from embedding.errors import Problem
 from embedding.scene.messages import choice
 from embedding.scene.part import known
 from embedding.scene.shapes import Point
-from embedding.scene.surface_fields import ForceField, SurfaceField
+from embedding.scene.surface_fields import SurfaceField
+from embedding.scene.vector_fields import ForceField
 
 if TYPE_CHECKING:
     from embedding.scene.scene import Scene

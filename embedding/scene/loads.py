@@ -11,7 +11,7 @@ from pydantic import Discriminator, Tag, model_validator
 
 from embedding.scene.messages import TABLE, VALUE, refusal
 from embedding.scene.part import Part
-from embedding.scene.surface_fields import ForceField, PressureField, value_or_table
+from embedding.scene.surface_fields import PressureField, value_or_table
 from embedding.scene.texts import Name
 from embedding.scene.units import (
     AccelerationVector,
@@ -23,6 +23,7 @@ from embedding.scene.units import (
     Pressure,
     PressureVector,
 )
+from embedding.scene.vector_fields import ForceField
 
 FacePressure = Annotated[
     Annotated[Pressure, Tag(VALUE)] | Annotated[PressureField, Tag(TABLE)],

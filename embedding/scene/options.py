@@ -14,13 +14,18 @@ from embedding.scene.units import Length, Number
 
 class Model(Part):
     """Choices of the model: ``theory`` is that of the shell, ``symmetry`` uses mirror planes in 3d, ``interface`` the
-    faces' true places, ``coupling`` how much field and shell know of each other."""
+    faces' true places, ``coupling`` how much field and shell know of each other.
+
+    ``far_field`` is how open space ends: in a mapped region that reaches to infinity, or in a Robin condition.
+    ``surroundings`` "none" leaves only the field inside the shell, between its electrodes.
+    """
 
     theory: Literal["auto", "membrane", "bending"] = "auto"
     reduction: Literal["auto", "3d", "axisymmetric", "plane-strain"] = "auto"
     symmetry: Literal["auto", "none"] = "auto"
     interface: Literal["auto", "opened", "closed"] = "auto"
-    far_field: Literal["auto", "robin"] = "auto"
+    far_field: Literal["auto", "infinite", "robin"] = "auto"
+    surroundings: Literal["auto", "meshed", "none"] = "auto"
     coupling: Literal["auto", "joint", "staggered", "once", "unperturbed"] = "auto"
 
 

@@ -8,11 +8,12 @@ from pydantic import BeforeValidator, Discriminator, Tag, model_validator
 
 from embedding.scene.materials import Material
 from embedding.scene.messages import TABLE, VALUE, refusal
-from embedding.scene.part import Part
+from embedding.scene.part import Part, known
 from embedding.scene.shapes import Shape
 from embedding.scene.surface_fields import ThicknessField, value_or_table
-from embedding.scene.texts import Name
-from embedding.scene.units import Density, Length, Ratio
+from embedding.scene.texts import Names
+from embedding.scene.units import Density, FluxDensityVector, Length, PolarisationVector, PositiveFluxDensity, Ratio
+from embedding.scene.vector_fields import PolarisationField, RemanenceField, VectorField
 
 Thickness = Annotated[
     Annotated[Length, Tag(VALUE)] | Annotated[ThicknessField, Tag(TABLE)],
@@ -20,24 +21,41 @@ Thickness = Annotated[
 ]
 
 
-def _names(value: Any) -> Any:
-    if not isinstance(value, (list, tuple)) or not value or len(set(map(str, value))) < len(value):
+Remanence = Annotated[
+    Annotated[FluxDensityVector, Tag(VALUE)] | Annotated[RemanenceField, Tag(TABLE)],
+    Discriminator(value_or_table(RemanenceField)),
+]
+Polarisation = Annotated[
+    Annotated[PolarisationVector, Tag(VALUE)] | Annotated[PolarisationField, Tag(TABLE)],
+    Discriminator(value_or_table(PolarisationField)),
+]
+
+
+def _some(value: Any) -> Any:
+    if not value:
         raise refusal('must be a list of different names of faces, such as ["web"]')
     return value
 
 
 class Region(Part):
-    """Faces of the shape with a thickness, a material or a density of their own; None: that of the shell."""
+    """Faces of the shape with properties of their own; None: that of the shell."""
 
-    faces: Annotated[tuple[Name, ...], BeforeValidator(_names)]
+    faces: Annotated[Names, BeforeValidator(_some)]
     thickness: Thickness | None = None
     material: Material | None = None
     density: Density | None = None
+    relative_permittivity: Ratio | None = None
+    relative_permeability: Ratio | None = None
+    remanence: Remanence | None = None
+    polarisation: Polarisation | None = None
+    saturation: PositiveFluxDensity | None = None
 
     @model_validator(mode="after")
     def _differs(self) -> Self:
-        if self.thickness is None and self.material is None and self.density is None:
-            raise refusal("a region needs a thickness, a material or a density", field="faces", value=self.faces)
+        own = (getattr(self, name) for name in type(self).model_fields if name != "faces")
+        if all(value is None for value in own):
+            reason = "a region needs a thickness, a material or another property of its own"
+            raise refusal(reason, field="faces", value=self.faces)
         return self
 
 
@@ -46,6 +64,10 @@ class Shell(Part):
 
     ``thickness`` in m is a number or an expression of the place, ``density`` in kg/m^3 is needed under gravity.
     ``regions`` are faces of the shape that differ from the rest.
+
+    ``remanence`` in T is a magnetisation that the material carries: B_r = F B~_r, given by its components in the
+    reference; ``polarisation`` in C/m^2 is the same of an electret. Both are vectors or expressions of the place.
+    ``saturation`` in T is the limit mu_0 M_s of the magnetisation that a magnetic field induces.
     """
 
     shape: Shape
@@ -55,6 +77,22 @@ class Shell(Part):
     regions: tuple[Region, ...] = ()
     relative_permittivity: Ratio | None = None
     relative_permeability: Ratio | None = None
+    remanence: Remanence | None = None
+    polarisation: Polarisation | None = None
+    saturation: PositiveFluxDensity | None = None
+
+    @property
+    def vector_fields(self) -> dict[str, VectorField]:
+        """The remanences and polarisations that vary over the surface, by the path of their field under ``shell``."""
+        return {path: value for path, value in self.carried.items() if isinstance(value, VectorField)}
+
+    @property
+    def carried(self) -> dict[str, VectorField | tuple[float, float, float]]:
+        """Every remanence and polarisation, by the path of its field under ``shell``."""
+        names = ("remanence", "polarisation")
+        stated: dict[str, Any] = {name: getattr(self, name) for name in names}
+        stated |= {f"regions.{i}.{name}": getattr(part, name) for i, part in enumerate(self.regions) for name in names}
+        return {path: value for path, value in stated.items() if known(value) is not None}
 
     @property
     def thickness_fields(self) -> dict[str, ThicknessField]:

@@ -22,13 +22,9 @@ def _expression(value: Any) -> Any:
         raise refusal(str(error)) from error
 
 
-def _three(value: Any) -> Any:
-    if not isinstance(value, (list, tuple)) or len(value) != 3:
-        raise refusal("must be a list of 3 expressions, one for each of x, y and z")
-    return [repr(float(v)) if isinstance(v, (int, float)) and not isinstance(v, bool) else v for v in value]
+def unit_of(si: str, noun: str, example: str) -> BeforeValidator:
+    """A validator of units of a ``noun``, which are multiples of ``si``."""
 
-
-def _unit(si: str, noun: str, example: str) -> BeforeValidator:
     def check(value: Any) -> str:
         unit = Line(limit=40)(value)
         try:
@@ -45,7 +41,7 @@ ExpressionText = Annotated[str, BeforeValidator(_expression)]
 
 
 class SurfaceField(Part):
-    """A quantity over the reference mid-surface: ``expression`` in x, y, z (metre), times ``unit``."""
+    """A quantity over the reference mid-surface, or in space: ``expression`` in x, y, z (metre), times ``unit``."""
 
     si: ClassVar[str]
 
@@ -83,7 +79,7 @@ class PressureField(SurfaceField):
 
     si = "Pa"
 
-    unit: Annotated[str, _unit("Pa", "pressure", "kPa")] = "Pa"
+    unit: Annotated[str, unit_of("Pa", "pressure", "kPa")] = "Pa"
 
 
 class ThicknessField(SurfaceField):
@@ -91,20 +87,7 @@ class ThicknessField(SurfaceField):
 
     si = "m"
 
-    unit: Annotated[str, _unit("m", "length", "mm")] = "m"
-
-
-class ForceField(Part):
-    """A dead force per reference area: three expressions in x, y, z (metre), times ``unit``."""
-
-    expression: Annotated[tuple[ExpressionText, ExpressionText, ExpressionText], BeforeValidator(_three)]
-    unit: Annotated[str, _unit("Pa", "pressure", "kPa")] = "Pa"
-
-    @property
-    def components(self) -> tuple[PressureField, PressureField, PressureField]:
-        """The x, y and z component, each a field of its own."""
-        x, y, z = (PressureField(expression=text, unit=self.unit) for text in self.expression)
-        return x, y, z
+    unit: Annotated[str, unit_of("m", "length", "mm")] = "m"
 
 
 def value_or_table(kind: type[Part]) -> Callable[[Any], str]:

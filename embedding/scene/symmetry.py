@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from embedding.errors import Problem
-from embedding.scene.surface_fields import ForceField, PressureField, SurfaceField
+from embedding.scene.surface_fields import SurfaceField
+from embedding.scene.vector_fields import ForceField
 
 if TYPE_CHECKING:
     from embedding.scene.scene import Scene
@@ -48,7 +49,7 @@ def unsymmetric_points(scene: Scene) -> Iterator[Problem]:
 def unsymmetric_field(scene: Scene) -> Iterator[Problem]:
     """An applied field with a component across the axis."""
     if scene.ambient is not None:
-        yield from _across("ambient.applied_field", scene.ambient.applied_field)
+        yield from _across("ambient.applied_field", scene.ambient.uniform_field)
 
 
 def unsymmetric_expressions(scene: Scene) -> Iterator[Problem]:
@@ -77,7 +78,7 @@ def _across(path: str, vector: tuple[float, float, float]) -> Iterator[Problem]:
         yield Problem(path, f"{list(vector)} is not allowed: {reason}")
 
 
-def _turned(components: tuple[PressureField, ...]) -> Callable[..., tuple[float, ...]]:
+def _turned(components: tuple[SurfaceField, ...]) -> Callable[..., tuple[float, ...]]:
     """Radial and axial component of a vector field, and the one around the axis."""
 
     def values(x: float, y: float, z: float) -> tuple[float, ...]:

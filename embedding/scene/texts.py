@@ -29,5 +29,12 @@ class Line:
         return value
 
 
+def _different(value: Any) -> Any:
+    if not isinstance(value, (list, tuple)) or len(set(map(str, value))) < len(value):
+        raise refusal('must be a list of different names of faces, such as ["web"]')
+    return value
+
+
 Name = Annotated[str, BeforeValidator(Line())]
+Names = Annotated[tuple[Name, ...], BeforeValidator(_different)]
 FilePath = Annotated[str, BeforeValidator(Line(1000))]

@@ -154,6 +154,10 @@ DENSITY = Number("density", "kg/m^3", "1100 kg/m^3")
 COORDINATE = Number("length", "m", "0.2 mm")
 ELECTRIC_FIELD = Number("electric field", "V/m", "2 kV/mm")
 MAGNETIC_FIELD = Number("magnetic field", "A/m", "5 kA/m")
+CHARGE = Number("charge", "C", "2 nC")
+CURRENT = Number("current", "A", "3 A")
+FLUX_DENSITY = Number("flux density", "T", "50 mT")
+POLARISATION = Number("polarisation", "C/m^2", "1 mC/m^2")
 
 Plain = Annotated[float, BeforeValidator(Number())]
 Ratio = Annotated[float, BeforeValidator(_positive(Number()))]
@@ -169,6 +173,12 @@ EdgeMomentValue = Annotated[float, BeforeValidator(EDGE_MOMENT)]
 Acceleration = Annotated[float, BeforeValidator(ACCELERATION)]
 Density = Annotated[float, BeforeValidator(_positive(DENSITY))]
 Coordinate = Annotated[float, BeforeValidator(COORDINATE)]
+Charge = Annotated[float, BeforeValidator(CHARGE)]
+Current = Annotated[float, BeforeValidator(CURRENT)]
+MagneticPotential = Annotated[float, BeforeValidator(replace(CURRENT, noun="magnetic potential"))]
+FluxDensity = Annotated[float, BeforeValidator(FLUX_DENSITY)]
+PositiveFluxDensity = Annotated[float, BeforeValidator(_positive(FLUX_DENSITY))]
+Polarisation = Annotated[float, BeforeValidator(POLARISATION)]
 
 
 def _components(value: Any) -> Any:
@@ -187,3 +197,7 @@ ForceVector = Annotated[tuple[Force, Force, Force], Components]
 PressureVector = Annotated[tuple[Pressure, Pressure, Pressure], Components]
 AccelerationVector = Annotated[tuple[Acceleration, Acceleration, Acceleration], Components]
 LengthVector = Annotated[tuple[Coordinate, Coordinate, Coordinate], Components]
+PositiveLengthVector = Annotated[tuple[Length, Length, Length], Components]
+FluxDensityVector = Annotated[tuple[FluxDensity, FluxDensity, FluxDensity], Components]
+PolarisationVector = Annotated[tuple[Polarisation, Polarisation, Polarisation], Components]
+PlainVector = Annotated[tuple[Plain, Plain, Plain], Components]

@@ -94,7 +94,7 @@ def test_overrides_of_a_scene() -> None:
         ("=1", "=1: empty key: an override reads key=value, such as shell.thickness=0.1 mm"),
         ("shell..thickness=1", "shell..thickness: empty key: an override reads key=value, such as shell.thickness=0.1 mm"),
         ("loads.body_force=[1, 2", "loads.body_force: [1, 2 is not a valid TOML value"),
-        ("shell=5", "shell: 5 is not allowed: must be a table with the keys shape, thickness, material, density, regions, relative_permittivity, relative_permeability"),
+        ("shell=5", "shell: 5 is not allowed: must be a table with the keys shape, thickness, material, density, regions, relative_permittivity, relative_permeability, remanence, polarisation, saturation"),
         ("name=5", "name: 5 is not allowed: must be text on one line, of 1 to 100 printable characters"),
     ],
 )  # fmt: skip
@@ -120,5 +120,6 @@ def test_the_original_table_is_left_alone() -> None:
 def test_a_missing_shell_is_still_named() -> None:
     assert refusals(lambda: Scene.from_table(apply_overrides({}, ["name=a"]))) == [
         "shell: missing: must be a table with the keys "
-        "shape, thickness, material, density, regions, relative_permittivity, relative_permeability"
+        "shape, thickness, material, density, regions, relative_permittivity, relative_permeability, "
+        "remanence, polarisation, saturation"
     ]
