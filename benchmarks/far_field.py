@@ -20,8 +20,9 @@ from netgen.occ import Pnt, Sphere
 from ngsolve import Grad, InnerProduct, Norm, dx
 
 from benchmarks.open_space import Answer, Region, Request, answer, open_space, sphere_answer
-from embedding.ambient.far import REACH, beyond, far_field
+from embedding.ambient.far import beyond, far_field
 from embedding.geometry.domain import Domain
+from embedding.geometry.surroundings import REACH
 
 RADII, ORDERS = (1.6, 2.0, 4.0), (2, 3, 4)
 SHELL, FAR = 0.5, 0.5

@@ -18,9 +18,9 @@ import netgen.meshing as netgen
 from netgen.occ import Glue, MoveTo, OCCGeometry, Pnt, Segment, Sphere, WorkPlane
 from ngsolve import BND, CF, H1, BilinearForm, Grad, GridFunction, InnerProduct, Mesh, Variation, dx
 
-from embedding.ambient.far import REACH
 from embedding.geometry.domain import Domain, MeshSizes
 from embedding.geometry.reduction import Name, Reduction
+from embedding.geometry.surroundings import REACH
 from embedding.scene import Disc as DiscShape
 from embedding.scene import Sphere as SphereShape
 
@@ -153,7 +153,7 @@ def answer(domain: Domain, far: Callable[[Any], list[Any]], voltage: Any, held: 
     trial = space.TrialFunction()
     form = BilinearForm(space, symmetric=True)
     energy = 0.5 * reduction.measure * InnerProduct(Grad(trial), Grad(trial))
-    form += Variation(energy * dx("outside", bonus_intorder=1)).Compile()
+    form += Variation(energy * dx("outside.*|inside.*", bonus_intorder=1)).Compile()
     for term in far(trial):
         form += Variation(term).Compile()
     potential.Set(voltage, BND, definedon=mesh.Boundaries("shell"))

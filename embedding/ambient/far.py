@@ -37,9 +37,7 @@ from ngsolve import BND, CF, ET, H1, Grad, GridFunction, IfPos, InnerProduct, In
 
 from embedding.geometry.domain import Domain
 from embedding.geometry.reduction import Reduction
-
-REACH = 1.5
-"""Radius at which the mapped region ends in the mesh, over the radius at which it begins."""
+from embedding.geometry.surroundings import REACH
 
 
 @dataclass(frozen=True)
