@@ -3,6 +3,7 @@ the field follows the shell, and against the energy of displaced states."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from scipy.linalg import null_space
 
 from embedding import Scene
+from embedding.ambient.sources import Electrodes, Source
 from embedding.coupling.lagrangian import ANCHOR
 from embedding.coupling.system import System
 from embedding.solving.driver import Run
@@ -81,6 +83,32 @@ def test_at_any_state(reduction: str, faces: str, interface: str, controlled: bo
         assert count == negatives(problem.system)
         counts.add(count)
     assert len(counts) > 1, "the test tells states apart"
+
+
+GIVEN_CHARGES = {
+    "one conductor": Electrodes(top=Source(charge=2.0), joined=True),
+    "both faces": Electrodes(top=Source(charge=2.0), bottom=Source(charge=-1.0)),
+    "one of two faces": Electrodes(top=Source(charge=2.0), bottom=Source(voltage=0.3)),
+}
+
+
+@pytest.mark.parametrize("charged", GIVEN_CHARGES)
+@pytest.mark.parametrize("reduction", ["axisymmetric", "3d"])
+def test_at_given_charges(reduction: str, charged: str) -> None:
+    """The potential that answers to a charge is one more unknown in which the energy is greatest."""
+    problem = coupled(reduction, "film", "opened", size=0.9)
+    physics = problem.system.physics
+    assert physics.field is not None
+    field = replace(physics.field, electrodes=GIVEN_CHARGES[charged])
+    problem.system = System(problem.domain, replace(physics, field=field))
+    counts = set()
+    for amount in (0.02, -0.15):
+        distort(problem, amount)
+        problem.system.linearise()
+        count = unstable_modes(problem.system)
+        assert count == negatives(problem.system)
+        counts.add(count)
+    assert len(counts) > 1
 
 
 BALLOON: dict[str, Any] = {
