@@ -32,14 +32,15 @@ def mirrored_loads(scene: Scene, axis: int) -> bool:
     return _mirrored_edges(scene, axis) and _mirrored_points(scene, axis) and _mirrored_supports(scene, axis)
 
 
-def _image(vector: Vector, axis: int) -> Vector:
+def image(vector: Vector, axis: int) -> Vector:
+    """The mirror image across coordinate ``axis`` of a vector, or of a point."""
     x, y, z = (-c if i == axis else c for i, c in enumerate(vector))
     return x, y, z
 
 
 def _parity(field: SurfaceField, points: Sequence[Vector], axis: int, *, odd: bool) -> bool:
     for point in points:
-        here, there = float(field(*point)), float(field(*_image(point, axis)))
+        here, there = float(field(*point)), float(field(*image(point, axis)))
         if abs(here - (-there if odd else there)) > SAME * max(abs(here), abs(there)):
             return False
     return True
@@ -60,7 +61,7 @@ def _mirrored_edges(scene: Scene, axis: int) -> bool:
         def total(name: str) -> Vector:
             return _sum(vector for edge, vector in entries if edge == name)
 
-        return all(_like(_image(total(n), flip), total(shape.mirror_image(n, AXES[axis]))) for n, _ in entries)
+        return all(_like(image(total(n), flip), total(shape.mirror_image(n, AXES[axis]))) for n, _ in entries)
 
     # In an edge's own frame only the component along the edge, the second, changes its sign.
     return mirrored(lines, axis) and all(mirrored(entries, 1) for entries in (*frames.values(), moments))
@@ -72,7 +73,7 @@ def _mirrored_points(scene: Scene, axis: int) -> bool:
     def total(point: Vector) -> Vector:
         return _sum(load.force for load in loads if math.dist(load.at, point) <= near)
 
-    return all(_like(_image(total(load.at), axis), total(_image(load.at, axis))) for load in loads)
+    return all(_like(image(total(load.at), axis), total(image(load.at, axis))) for load in loads)
 
 
 def _mirrored_supports(scene: Scene, axis: int) -> bool:
@@ -81,11 +82,11 @@ def _mirrored_supports(scene: Scene, axis: int) -> bool:
 
     def matches(one: Support, other: Support) -> bool:
         if isinstance(one.where, str):
-            image = one.where if one.where == "surface" else shape.mirror_image(one.where, AXES[axis])
-            close = image == other.where
+            name = one.where if one.where == "surface" else shape.mirror_image(one.where, AXES[axis])
+            close = name == other.where
         else:
-            close = not isinstance(other.where, str) and math.dist(_image(one.where, axis), other.where) <= near
-        return close and one.held == other.held and _image(one.displacement, axis) == other.displacement
+            close = not isinstance(other.where, str) and math.dist(image(one.where, axis), other.where) <= near
+        return close and one.held == other.held and image(one.displacement, axis) == other.displacement
 
     return all(any(matches(one, other) for other in scene.supports) for one in scene.supports)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from embedding.geometry.reduction import Reduction
 from embedding.plan.decisions import Decision
 from embedding.plan.mirror import mirrored_loads
+from embedding.plan.parity import EVEN, parities
 from embedding.scene import Scene, axisymmetry_problems
 
 AXES = ("x", "y", "z")
@@ -47,18 +48,9 @@ def _mirror_planes(scene: Scene, reduction: str) -> tuple[str, ...]:
 
 def _mirrored(scene: Scene, axis: int) -> bool:
     """Is the scene its own image in the coordinate plane ``axis`` (the potential up to its sign)?"""
-    if not mirrored_loads(scene, axis):
-        return False
-    applied = scene.ambient.uniform_field if scene.ambient is not None else (0.0, 0.0, 0.0)
-    if applied[axis] == 0.0:
-        return True
-    alone = not any(applied[other] for other in range(3) if other != axis)
-    charged = any(e is not None and e.voltage != 0.0 for e in (scene.faces.top, scene.faces.bottom))
-    return alone and not charged
+    return mirrored_loads(scene, axis) and bool(parities(scene, axis))
 
 
 def odd_planes(scene: Scene, reduction: Reduction) -> tuple[str, ...]:
-    """Mirror planes across which the applied field points: there the potential is zero."""
-    if scene.ambient is None:
-        return ()
-    return tuple(axis for axis in reduction.planes if scene.ambient.uniform_field[AXES.index(axis)] != 0.0)
+    """Mirror planes in which the potential changes its sign: there it is zero."""
+    return tuple(axis for axis in reduction.planes if EVEN not in parities(scene, AXES.index(axis)))

@@ -8,7 +8,7 @@ from pydantic import AfterValidator, BeforeValidator, Discriminator, Tag, Valida
 
 from embedding.scene.bodies import Body
 from embedding.scene.messages import TABLE, VALUE, refusal
-from embedding.scene.part import Part
+from embedding.scene.part import Part, known
 from embedding.scene.surface_fields import value_or_table
 from embedding.scene.texts import Names
 from embedding.scene.units import (
@@ -99,7 +99,14 @@ class Ambient(Part):
     @property
     def uniform_field(self) -> tuple[float, float, float]:
         """The applied field where it is the same everywhere, in V/m or A/m; zero where it is an expression."""
-        return (0.0, 0.0, 0.0) if isinstance(self.applied_field, AppliedField) else self.applied_field
+        applied = known(self.applied_field)
+        return (0.0, 0.0, 0.0) if isinstance(applied, AppliedField) else applied
+
+    @property
+    def varying_field(self) -> AppliedField | None:
+        """The applied field where it is an expression; None where it is the same everywhere."""
+        applied = known(self.applied_field)
+        return applied if isinstance(applied, AppliedField) else None
 
     @property
     def contrast(self) -> float:
@@ -125,6 +132,11 @@ class Electrode(Part):
     charge: Charge | None = None
     where: Names = ()
 
+    @property
+    def strength(self) -> float:
+        """The voltage or charge that is given."""
+        return self.voltage or self.charge or 0.0
+
     @model_validator(mode="after")
     def _one_drive(self) -> Self:
         if self.voltage is None and self.charge is None:
@@ -141,6 +153,12 @@ class Faces(Part):
     top: Electrode | None = None
     bottom: Electrode | None = None
     both: Electrode | None = None
+
+    @property
+    def electrodes(self) -> dict[str, Electrode]:
+        """Those that there are, by the name of their field."""
+        stated = {name: known(getattr(self, name)) for name in ("top", "bottom", "both")}
+        return {name: electrode for name, electrode in stated.items() if electrode is not None}
 
     @model_validator(mode="after")
     def _both_or_each(self) -> Self:

@@ -9,8 +9,11 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from embedding.errors import Problem
+from embedding.scene.checks_bodies import BODY_CHECKS
+from embedding.scene.checks_electrodes import ELECTRODE_CHECKS
 from embedding.scene.checks_field import FIELD_CHECKS
 from embedding.scene.checks_loads import LOAD_CHECKS
+from embedding.scene.checks_matter import MATTER_CHECKS
 from embedding.scene.checks_shell import SHELL_CHECKS
 from embedding.scene.messages import quoted
 from embedding.scene.output import output_problems
@@ -26,7 +29,7 @@ Check = Callable[["Scene"], Iterator[Problem]]
 def cross_problems(scene: Scene) -> tuple[Problem, ...]:
     """Everything that does not fit together; checks on fields that are themselves wrong are left out."""
     found: list[Problem] = []
-    for check in (*SHELL_CHECKS, *LOAD_CHECKS, _volume_control, *FIELD_CHECKS, *MODEL_CHECKS):
+    for check in (*SHELL_CHECKS, *LOAD_CHECKS, _volume_control, *IN_SPACE, *MODEL_CHECKS):
         try:
             for problem in check(scene):
                 found.append(problem)
@@ -76,4 +79,5 @@ def _axisymmetric(check: Check) -> Check:
     return pinned
 
 
+IN_SPACE = (*FIELD_CHECKS, *ELECTRODE_CHECKS, *MATTER_CHECKS, *BODY_CHECKS)
 MODEL_CHECKS = (_reduction, _edge_sizes, output_problems, *map(_axisymmetric, UNSYMMETRIC))

@@ -1,7 +1,8 @@
-"""Cross checks of the field: which shapes, electrodes and material constants it needs."""
+"""Cross checks of the space around the shell: where it ends, what fills it, the field that is given in it."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -9,96 +10,120 @@ from embedding.errors import Problem
 from embedding.scene.part import known
 
 if TYPE_CHECKING:
-    from embedding.scene.ambient import Electrode
     from embedding.scene.scene import Scene
 
+CLOSE = 1e-12
+"""Lengths that differ by less, relative to them, are equal."""
 
-def _coupled_shape(scene: Scene) -> Iterator[Problem]:
+
+def axes_of(scene: Scene) -> int:
+    """How many coordinates count: 2 in plane strain, else 3."""
+    return 2 if scene.shell.shape.reductions == ("plane-strain",) else 3
+
+
+def varying(scene: Scene) -> bool:
+    """Is a field given that is not the same everywhere?"""
+    ambient = scene.ambient
+    return ambient is not None and (ambient.varying_field is not None or bool(ambient.line_currents))
+
+
+def applied(scene: Scene) -> bool:
+    """Is a field given at all?"""
+    return varying(scene) or (scene.ambient is not None and any(scene.ambient.uniform_field))
+
+
+def _junctions(scene: Scene) -> Iterator[Problem]:
     shape = scene.shell.shape
     if known(scene.ambient) is not None and not shape.surroundable:
-        reason = "this version couples only a sphere or an infinite-cylinder to a field"
+        reason = "more than two plates meet in its junction, and the space between them has no top and bottom"
         yield Problem("ambient", f'not allowed around a shape of kind "{shape.kind}": {reason}')
 
 
-def _ambient_radius(scene: Scene) -> Iterator[Problem]:
+def _radius(scene: Scene) -> Iterator[Problem]:
     radius = known(scene.ambient.radius) if scene.ambient is not None else None
     if radius is None:
         return
-    outside = scene.shell.shape.size + scene.shell.thickest / 2
-    if radius <= outside:
-        reason = f"must be greater than {outside} m, the size of the shell plus half its thickness"
-        yield Problem("ambient.radius", f"{radius} m is not allowed: {reason}")
+    axes = axes_of(scene)
+    farthest = max(math.hypot(*point[:axes]) for point in scene.shell.shape.sample_points())
+    outside = farthest + scene.shell.thickest / 2
+    if radius <= outside * (1 + CLOSE):
+        reason = "the farthest point of the shell from the origin plus half its thickness"
+        yield Problem("ambient.radius", f"{radius} m is not allowed: must be greater than {outside:.6g} m, {reason}")
 
 
-def _electrodes_need_electric_field(scene: Scene) -> Iterator[Problem]:
-    if scene.ambient is None:
-        reason = 'an electrode needs a field around the shell: add [ambient] with field = "electric"'
-    elif scene.ambient.field == "magnetic":
-        reason = 'an electrode is not allowed when ambient.field is "magnetic"'
-    else:
+def _box(scene: Scene) -> Iterator[Problem]:
+    if scene.ambient is None or (box := known(scene.ambient.box)) is None:
         return
-    for name in _electrodes(scene):
-        yield Problem(f"faces.{name}", reason)
+    if known(scene.ambient.radius) is not None:
+        yield Problem("ambient.box", "not allowed beside ambient.radius: space ends at a sphere or at a box")
+    if scene.ambient.outer != "grounded":
+        reason = f'"{scene.ambient.outer}" is not allowed with ambient.box: open space ends at a sphere; use "grounded"'
+        yield Problem("ambient.outer", reason)
+    for axis in range(axes_of(scene)):
+        outside = max(abs(point[axis]) for point in scene.shell.shape.sample_points())
+        if box[axis] <= outside:
+            reason = f"must be greater than {outside:.6g} m, as far as the shell extends along {'xyz'[axis]}"
+            yield Problem(f"ambient.box.{axis}", f"{box[axis]} m is not allowed: {reason}")
 
 
-def _permeability(scene: Scene) -> Iterator[Problem]:
-    if scene.ambient is None or scene.ambient.field != "magnetic":
+def _inside(scene: Scene) -> Iterator[Problem]:
+    if scene.ambient is None or scene.shell.shape.closed:
         return
-    if known(scene.shell.relative_permeability) is None:
-        yield Problem("shell.relative_permeability", 'missing: needed when ambient.field is "magnetic"')
+    for name in ("inside_relative_permittivity", "inside_relative_permeability"):
+        if known(getattr(scene.ambient, name)) is not None:
+            reason = f'a shape of kind "{scene.shell.shape.kind}" is open and has no inside'
+            yield Problem(f"ambient.{name}", f"not allowed: {reason}")
 
 
-def _permittivity(scene: Scene) -> Iterator[Problem]:
-    """Without a permittivity the shell must be a conductor: both faces at the same voltage."""
-    if scene.ambient is None or scene.ambient.field != "electric":
-        return
-    electrodes = _electrodes(scene)
-    if known(scene.shell.relative_permittivity) is not None:
-        return
-    if len(electrodes) == 1:
-        bare = "bottom" if "top" in electrodes else "top"
-        reason = "without shell.relative_permittivity both faces must be electrodes at the same voltage"
-        yield Problem(f"faces.{bare}", f"missing voltage: {reason}; give the voltage here, or the permittivity")
-    elif not electrodes:
-        reason = 'needed when ambient.field is "electric" and no face is an electrode'
-        yield Problem("shell.relative_permittivity", f"missing: {reason}")
-    elif electrodes["top"].voltage != electrodes["bottom"].voltage:
-        voltages = f"{electrodes['top'].voltage} V on top and {electrodes['bottom'].voltage} V on the bottom"
-        reason = f"needed because the faces are at different voltages, {voltages}"
-        yield Problem("shell.relative_permittivity", f"missing: {reason}")
-
-
-def _electrodes(scene: Scene) -> dict[str, Electrode]:
-    faces = {"top": known(scene.faces.top), "bottom": known(scene.faces.bottom)}
-    return {name: electrode for name, electrode in faces.items() if electrode is not None}
-
-
-def _charged_cylinder(scene: Scene) -> Iterator[Problem]:
-    """In two dimensions the potential of a charge grows with the logarithm of the distance."""
-    if scene.ambient is None or scene.shell.shape.reductions != ("plane-strain",):
-        return
-    if scene.ambient.field == "electric" and scene.ambient.outer == "free-space" and _electrodes(scene):
-        reason = 'its potential has no zero at infinity; use "grounded"'
-        message = f'"free-space" is not allowed around an infinite cylinder with electrodes: {reason}'
-        yield Problem("ambient.outer", message)
-
-
-def _axial_field(scene: Scene) -> Iterator[Problem]:
-    if scene.ambient is None or scene.shell.shape.reductions != ("plane-strain",):
+def _along_the_axis(scene: Scene) -> Iterator[Problem]:
+    if scene.ambient is None or axes_of(scene) == 3:
         return
     axial = scene.ambient.uniform_field[2]
     if axial != 0.0:
         unit = "V/m" if scene.ambient.field == "electric" else "A/m"
-        message = f"{axial} {unit} is not allowed: must be 0 along the axis of an infinite cylinder"
+        long = "an infinite cylinder" if scene.shell.shape.closed else "what is infinitely long"
+        message = f"{axial} {unit} is not allowed: must be 0 along the axis of {long}"
         yield Problem("ambient.applied_field.2", message)
+    for number, current in enumerate(scene.ambient.line_currents):
+        if current.along[0] != 0.0 or current.along[1] != 0.0:
+            message = f"{list(current.along)} is not allowed: must be along z, along which nothing changes"
+            yield Problem(f"ambient.line_currents.{number}.along", message)
+
+
+def _currents(scene: Scene) -> Iterator[Problem]:
+    if scene.ambient is not None and scene.ambient.field == "electric" and scene.ambient.line_currents:
+        yield Problem("ambient.line_currents", 'not allowed when ambient.field is "electric"')
+
+
+def _conductors_in_varying_fields(scene: Scene) -> Iterator[Problem]:
+    if not varying(scene) or scene.ambient is None:
+        return
+    paths = [f"faces.{name}" for name in scene.faces.electrodes]
+    paths += [f"ambient.bodies.{i}" for i, body in enumerate(scene.ambient.bodies) if body.is_conductor]
+    for path in paths:
+        reason = "in an applied field that varies, or in that of line currents, there can be no conductors"
+        yield Problem(path, f"not allowed: {reason}")
+
+
+def _unperturbed(scene: Scene) -> Iterator[Problem]:
+    if known(scene.ambient) is None or scene.model.coupling != "unperturbed":
+        return
+    pinned = 'model.coupling = "unperturbed": the field is the applied one alone'
+    for name in scene.faces.electrodes:
+        yield Problem(f"faces.{name}", f"not allowed with {pinned}")
+    if scene.ambient is not None and scene.ambient.bodies:
+        yield Problem("ambient.bodies", f"not allowed with {pinned}")
+    if not applied(scene):
+        yield Problem("ambient.applied_field", f"missing: needed with {pinned}")
 
 
 FIELD_CHECKS = (
-    _coupled_shape,
-    _ambient_radius,
-    _electrodes_need_electric_field,
-    _permeability,
-    _permittivity,
-    _charged_cylinder,
-    _axial_field,
+    _junctions,
+    _radius,
+    _box,
+    _inside,
+    _along_the_axis,
+    _currents,
+    _conductors_in_varying_fields,
+    _unperturbed,
 )

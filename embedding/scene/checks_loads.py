@@ -11,22 +11,31 @@ from embedding.scene.messages import choice
 from embedding.scene.part import known
 from embedding.scene.shapes import Point
 from embedding.scene.surface_fields import SurfaceField
-from embedding.scene.vector_fields import ForceField
+from embedding.scene.vector_fields import ForceField, VectorField
 
 if TYPE_CHECKING:
     from embedding.scene.scene import Scene
 
 
 def surface_fields(scene: Scene) -> Iterator[tuple[str, SurfaceField]]:
-    """Every expression of the scene over the mid-surface, with the path of its text."""
+    """Every expression of the scene over the mid-surface or in space, with the path of its text."""
     for path, thickness in scene.shell.thickness_fields.items():
         yield f"shell.{path}.expression", thickness
     for name, pressure in scene.loads.pressure_fields.items():
         yield f"loads.{name}.expression", pressure
-    force = scene.loads.surface_force
-    if isinstance(force, ForceField):
-        for number, component in enumerate(force.components):
-            yield f"loads.surface_force.expression.{number}", component
+    for path, vector in vector_fields(scene).items():
+        for number, component in enumerate(vector.components):
+            yield f"{path}.expression.{number}", component
+
+
+def vector_fields(scene: Scene) -> dict[str, VectorField]:
+    """Every vector of the scene that is given as expressions, by the path of its field."""
+    vectors: dict[str, VectorField] = {f"shell.{path}": field for path, field in scene.shell.vector_fields.items()}
+    if isinstance(scene.loads.surface_force, ForceField):
+        vectors["loads.surface_force"] = scene.loads.surface_force
+    if scene.ambient is not None and scene.ambient.varying_field is not None:
+        vectors["ambient.applied_field"] = scene.ambient.varying_field
+    return vectors
 
 
 def _supports(scene: Scene) -> Iterator[Problem]:
@@ -98,9 +107,9 @@ def _infinitely_long(scene: Scene) -> Iterator[Problem]:
         if "z" in field.parsed.variables:
             message = f"{field.expression} is not allowed: must not depend on z, along which nothing changes"
             yield Problem(path, message)
-    force = scene.loads.surface_force
-    if isinstance(force, ForceField) and any(force.components[2].values_at(scene.shell.shape.sample_points())):
-        yield Problem("loads.surface_force.expression.2", f"{force.expression[2]} {zero}")
+    for path, vector in vector_fields(scene).items():
+        if any(vector.components[2].values_at(scene.shell.shape.sample_points())):
+            yield Problem(f"{path}.expression.2", f"{vector.expression[2]} {zero}")
 
 
 def _along_z(scene: Scene) -> Iterator[tuple[str, float]]:
@@ -117,6 +126,10 @@ def _along_z(scene: Scene) -> Iterator[tuple[str, float]]:
         if not isinstance(support.where, str):
             yield f"supports.{number}.where.2", support.where[2]
         yield f"supports.{number}.displacement.2", support.displacement[2]
+    for path, vector in scene.shell.constant_vectors.items():
+        yield f"shell.{path}.2", vector[2]
+    for number, body in enumerate(scene.ambient.bodies if scene.ambient is not None else ()):
+        yield f"ambient.bodies.{number}.remanence.2", (body.remanence or (0.0, 0.0, 0.0))[2]
 
 
 def needs_bending(scene: Scene) -> tuple[Problem, ...]:

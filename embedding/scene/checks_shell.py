@@ -58,10 +58,4 @@ def _one_theory(scene: Scene) -> Iterator[Problem]:
             yield Problem(path, f'"{material.law}" is not allowed beside "{scene.shell.material.law}": {reason}')
 
 
-def _in_a_field(scene: Scene) -> Iterator[Problem]:
-    if scene.ambient is not None and not scene.shell.uniform:
-        path = "shell.regions" if scene.shell.regions else "shell.thickness"
-        yield Problem(path, "not allowed with an ambient: in a field the shell must be the same everywhere")
-
-
-SHELL_CHECKS = (_thickness, _faces, _one_theory, _in_a_field)
+SHELL_CHECKS = (_thickness, _faces, _one_theory)

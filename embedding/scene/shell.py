@@ -87,6 +87,11 @@ class Shell(Part):
         return {path: value for path, value in self.carried.items() if isinstance(value, VectorField)}
 
     @property
+    def constant_vectors(self) -> dict[str, tuple[float, float, float]]:
+        """Those that are the same everywhere, by the path of their field under ``shell``."""
+        return {path: value for path, value in self.carried.items() if isinstance(value, tuple)}
+
+    @property
     def carried(self) -> dict[str, VectorField | tuple[float, float, float]]:
         """Every remanence and polarisation, by the path of its field under ``shell``."""
         names = ("remanence", "polarisation")
@@ -100,11 +105,6 @@ class Shell(Part):
         stated: dict[str, Any] = {"thickness": self.thickness}
         stated |= {f"regions.{i}.thickness": region.thickness for i, region in enumerate(self.regions)}
         return {path: value for path, value in stated.items() if isinstance(value, ThicknessField)}
-
-    @property
-    def uniform(self) -> bool:
-        """Is it the same everywhere?"""
-        return not self.regions and not isinstance(self.thickness, ThicknessField)
 
     @property
     def materials(self) -> tuple[Material, ...]:

@@ -7,8 +7,10 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from embedding.errors import Problem
+from embedding.scene.bodies import BoxBody, HalfSpace
+from embedding.scene.checks_loads import vector_fields
+from embedding.scene.part import known
 from embedding.scene.surface_fields import SurfaceField
-from embedding.scene.vector_fields import ForceField
 
 if TYPE_CHECKING:
     from embedding.scene.scene import Scene
@@ -47,13 +49,33 @@ def unsymmetric_points(scene: Scene) -> Iterator[Problem]:
 
 
 def unsymmetric_field(scene: Scene) -> Iterator[Problem]:
-    """An applied field with a component across the axis."""
+    """An applied field, a remanence or a polarisation with a component across the axis."""
+    for path, vector in scene.shell.constant_vectors.items():
+        yield from _across(f"shell.{path}", vector)
     if scene.ambient is not None:
         yield from _across("ambient.applied_field", scene.ambient.uniform_field)
 
 
+def unsymmetric_space(scene: Scene) -> Iterator[Problem]:
+    """Boxes, line currents, bodies off the axis or with a remanence across it."""
+    ambient = scene.ambient
+    if ambient is None:
+        return
+    if known(ambient.box) is not None:
+        yield Problem("ambient.box", f"not allowed {_PINNED}: a box is not round")
+    if ambient.line_currents:
+        yield Problem("ambient.line_currents", f"not allowed {_PINNED}: their field is around them")
+    for number, body in enumerate(ambient.bodies):
+        path = f"ambient.bodies.{number}"
+        if isinstance(body, BoxBody):
+            yield Problem(f"{path}.kind", f'"box" is not allowed {_PINNED}: a box is not round')
+        elif not isinstance(body, HalfSpace):
+            yield from _across(f"{path}.centre", body.centre)
+        yield from _across(f"{path}.remanence", known(body.remanence) or (0.0, 0.0, 0.0))
+
+
 def unsymmetric_expressions(scene: Scene) -> Iterator[Problem]:
-    """Thickness, pressures and surface forces that change when turned about the axis; compared at a few points."""
+    """Thickness, pressures, forces and fields that change when turned about the axis; compared at a few points."""
     size = scene.shell.shape.size
     scalars: dict[str, SurfaceField] = {f"shell.{path}": field for path, field in scene.shell.thickness_fields.items()}
     scalars |= {f"loads.{name}": pressure for name, pressure in scene.loads.pressure_fields.items()}
@@ -61,14 +83,19 @@ def unsymmetric_expressions(scene: Scene) -> Iterator[Problem]:
         if field.parsed.variables & {"x", "y"} and not _invariant(lambda *p, f=field: (f(*p),), size):
             reason = f"must depend on x and y through x**2 + y**2 only {_PINNED}"
             yield Problem(f"{path}.expression", f"{field.expression} is not allowed: {reason}")
-    force = scene.loads.surface_force
-    if isinstance(force, ForceField) and not _invariant(_turned(force.components), size):
-        reason = f"must be the same when turned about the z axis, without a component around it, {_PINNED}"
-        shown = ", ".join(force.expression)
-        yield Problem("loads.surface_force.expression", f"[{shown}] is not allowed: {reason}")
+    for path, vector in vector_fields(scene).items():
+        if not _invariant(_turned(vector.components), size):
+            reason = f"must be the same when turned about the z axis, without a component around it, {_PINNED}"
+            yield Problem(f"{path}.expression", f"[{', '.join(vector.expression)}] is not allowed: {reason}")
 
 
-UNSYMMETRIC = (unsymmetric_vectors, unsymmetric_points, unsymmetric_field, unsymmetric_expressions)
+UNSYMMETRIC = (
+    unsymmetric_vectors,
+    unsymmetric_points,
+    unsymmetric_field,
+    unsymmetric_space,
+    unsymmetric_expressions,
+)
 """The checks, one for each kind of thing that may break the symmetry."""
 
 

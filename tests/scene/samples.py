@@ -16,6 +16,8 @@ SHAPES: dict[str, dict[str, Any]] = {
     "disc": {"kind": "disc", "radius": 0.02},
     "sphere": {"kind": "sphere", "radius": 0.02},
     "infinite-cylinder": {"kind": "infinite-cylinder", "radius": 0.02},
+    "strip": {"kind": "strip", "length": 0.1},
+    "t-section": {"kind": "t-section", "length": 0.1},
 }
 
 

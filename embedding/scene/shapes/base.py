@@ -59,8 +59,8 @@ class Surface(Part):
 
     @property
     def surroundable(self) -> bool:
-        """Can the space around it be meshed?"""
-        return False
+        """Has the space around it a top and a bottom side everywhere?"""
+        return True
 
     @property
     @abstractmethod

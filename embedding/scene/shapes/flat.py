@@ -138,6 +138,11 @@ class TSection(Surface):
         return ("bottom", "left", "right", "front", "back", "junction")
 
     @property
+    def surroundable(self) -> bool:
+        """Three plates meet."""
+        return False
+
+    @property
     def size(self) -> float:
         """The side of a plate, in m."""
         return self.length

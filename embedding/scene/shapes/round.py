@@ -33,11 +33,6 @@ class Sphere(Surface):
         return True
 
     @property
-    def surroundable(self) -> bool:
-        """Always."""
-        return True
-
-    @property
     def mirrors(self) -> tuple[str, ...]:
         """All three coordinate planes."""
         return ("x", "y", "z")

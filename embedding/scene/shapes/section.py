@@ -45,11 +45,6 @@ class InfiniteCylinder(Section):
         return True
 
     @property
-    def surroundable(self) -> bool:
-        """Always."""
-        return True
-
-    @property
     def mirrors(self) -> tuple[str, ...]:
         """The circle lies across x = 0 and y = 0."""
         return ("x", "y")
