@@ -9,11 +9,11 @@ from embedding.geometry.reduction import Reduction
 from embedding.geometry.sizes import AT_POINTS
 from embedding.plan.coupling import choose_coupling
 from embedding.plan.decisions import Decision, Plan
+from embedding.plan.far_field import choose_far_field
 from embedding.plan.symmetry import choose_reduction, odd_planes
 from embedding.plan.theory import choose_locking, choose_theory
 from embedding.scene import Scene
 
-FAR_RADIUS = 4.0
 SHELL_SIZE = {"3d": 0.4, "axisymmetric": 0.2, "plane-strain": 0.2}
 FLAT_SIZE = 0.35
 
@@ -83,11 +83,7 @@ def _field(scene: Scene) -> tuple[Decision, ...]:
     else:
         jump = Decision("potential", "with a jump", "the faces may differ: the jump is an unknown on the shell")
     moving = Decision("field", "moves with the shell", "the ambient follows the faces")
-    if scene.ambient.outer == "grounded":
-        far = Decision("far field", "grounded", "potential prescribed on the outer boundary, as the scene states")
-    else:
-        far = Decision("far field", "second-order Robin", "exact for net charge and dipole; higher multipoles decay")
-    return moving, jump, far
+    return moving, jump
 
 
 def _interface(scene: Scene) -> tuple[tuple[str, ...], tuple[Decision, ...]]:
@@ -120,14 +116,13 @@ def _sizes(scene: Scene, reduction: str) -> tuple[MeshSizes, tuple[Decision, ...
     decisions = [Decision("mesh on the shell", f"{shell:.3g} x size", origin)]
     if scene.ambient is None:
         return MeshSizes(shell, shell, 0.0, chosen.grading, chosen.order, edges), tuple(decisions)
-    stated = scene.ambient.radius
-    radius = stated / size if stated else FAR_RADIUS
-    origin = "stated by the scene" if stated else f"default, {FAR_RADIUS:g} times the shell"
-    decisions.append(Decision("ambient radius", f"{radius:.3g} x size", origin))
-    far = chosen.ambient_size / size if chosen.ambient_size else radius / 2
+    end = choose_far_field(scene, scene.ambient)
+    decisions += end.decisions
+    far = chosen.ambient_size / size if chosen.ambient_size else end.radius / 2
     origin = "stated by the scene" if chosen.ambient_size else "half the ambient's radius"
     decisions.append(Decision("mesh far away", f"{far:.3g} x size", f"{origin}; grading {chosen.grading:g}"))
-    return MeshSizes(shell, far, radius, chosen.grading, chosen.order), tuple(decisions)
+    sizes = MeshSizes(shell, far, end.radius, chosen.grading, chosen.order, beyond=end.beyond)
+    return sizes, tuple(decisions)
 
 
 def _order(scene: Scene) -> Decision:

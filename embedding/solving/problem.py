@@ -127,4 +127,5 @@ def _field(scene: Scene, plan: Plan, scales: Scales) -> FieldPhysics | None:
     electric = ambient.field == "electric"
     contrast = scene.shell.relative_permittivity if electric else scene.shell.relative_permeability
     applied = tuple(component / scales.field for component in plan.reduction.project(ambient.applied_field))
-    return FieldPhysics(electrodes, Matter(contrast), applied, ambient.outer == "grounded", plan.odd_planes)
+    grounded, beyond = ambient.outer == "grounded", plan.sizes.beyond
+    return FieldPhysics(electrodes, Matter(contrast), applied, grounded, plan.odd_planes, beyond=beyond)

@@ -1,0 +1,85 @@
+"""Where the meshed space ends and what follows: a mapped region to infinity, a Robin condition, or a grounded boundary.
+
+Lengths are in shell sizes. The reach is how far from the origin the shell and the bodies extend.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from embedding.plan.decisions import Decision
+from embedding.scene import Ambient, Scene
+from embedding.scene.bodies import BoxBody, CylinderBody, HalfSpace, SphereBody
+
+ROBIN_ERROR = 0.02
+"""Of the second-order Robin condition, times (reach / radius)^5: in the dipole moment of a sphere off the centre, and a
+little more than in the charge of a disc (docs/far_field.md)."""
+ENOUGH = 3.0
+"""Radius over reach from which that is below 1e-4."""
+FAR_RADIUS = {"robin": 4.0, "infinite": 3.0, "grounded": 4.0}
+CLEARANCE = {"robin": ENOUGH, "infinite": 1.5, "grounded": 1.5}
+"""Default radius: at least that of ``FAR_RADIUS``, in which the shell has room to move and grow, and ``CLEARANCE``
+times the reach. The mapped region costs as much as what lies between radii 3 and 4 on fine meshes and more on coarse
+ones, so that Robin's condition at 4 is the cheaper of the two where it is good enough."""
+
+
+@dataclass(frozen=True)
+class FarField:
+    """The ambient's radius, whether a mapped region follows it, and why."""
+
+    radius: float
+    beyond: bool
+    decisions: tuple[Decision, ...]
+
+
+def choose_far_field(scene: Scene, ambient: Ambient) -> FarField:
+    """End the meshed space of a scene."""
+    size, reach = scene.shell.shape.size, reach_of(scene, ambient)
+    stated = ambient.radius / size if ambient.radius else None
+    kind = _kind(scene, ambient, stated, reach)
+    radius = stated or max(FAR_RADIUS[kind], CLEARANCE[kind] * reach)
+    default = f"default, {radius:g} times the shell" if radius == FAR_RADIUS[kind] else f"all lies within {reach:.3g}"
+    where = Decision("ambient radius", f"{radius:.3g} x size", "stated by the scene" if stated else default)
+    return FarField(radius, kind == "infinite", (where, _decision(scene, kind, reach / radius)))
+
+
+def _kind(scene: Scene, ambient: Ambient, stated: float | None, reach: float) -> str:
+    if ambient.outer == "grounded":
+        return "grounded"
+    if scene.model.far_field != "auto":
+        return scene.model.far_field
+    return "robin" if (stated or FAR_RADIUS["robin"]) >= ENOUGH * reach else "infinite"
+
+
+def _decision(scene: Scene, kind: str, ratio: float) -> Decision:
+    if kind == "grounded":
+        return Decision("far field", "grounded", "potential prescribed on the outer boundary, as the scene states")
+    pinned = "" if scene.model.far_field == "auto" else "pinned by the scene; "
+    error = f"{ROBIN_ERROR * ratio**5:.0e}"
+    if kind == "robin":
+        reason = f"exact for net charge and dipole; of higher multipoles it misses about {error}"
+        return Decision("far field", "second-order Robin", pinned + reason)
+    reason = f"to infinity, to the order of the potential; a Robin condition would miss about {error}"
+    return Decision("far field", "infinite map", pinned + reason)
+
+
+def reach_of(scene: Scene, ambient: Ambient) -> float:
+    """Distance from the origin (plane strain: from the axis) of the farthest point of the shell and of the bodies."""
+    shape = scene.shell.shape
+    seen = 2 if shape.reductions == ("plane-strain",) else 3
+    points = [math.hypot(*point[:seen]) for point in shape.sample_points()]
+    return max([*points, *(_farthest(body, seen) for body in ambient.bodies)]) / shape.size
+
+
+def _farthest(body: SphereBody | CylinderBody | BoxBody | HalfSpace, seen: int) -> float:
+    match body:
+        case SphereBody():
+            return math.hypot(*body.centre[:seen]) + body.radius
+        case CylinderBody():
+            across = math.hypot(*body.centre[:2]) + body.radius
+            return across if seen == 2 else math.hypot(across, abs(body.centre[2]) + body.length / 2)
+        case BoxBody():
+            return math.hypot(*(abs(c) + edge / 2 for c, edge in zip(body.centre[:seen], body.size, strict=False)))
+        case HalfSpace():
+            return abs(body.level)
