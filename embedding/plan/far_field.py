@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 from embedding.plan.decisions import Decision
 from embedding.scene import Ambient, Scene
-from embedding.scene.bodies import BoxBody, CylinderBody, HalfSpace, SphereBody
 
 ROBIN_ERROR = 0.02
 """Of the second-order Robin condition, times (reach / radius)^5: in the dipole moment of a sphere off the centre, and a
@@ -69,17 +68,4 @@ def reach_of(scene: Scene, ambient: Ambient) -> float:
     shape = scene.shell.shape
     seen = 2 if shape.reductions == ("plane-strain",) else 3
     points = [math.hypot(*point[:seen]) for point in shape.sample_points()]
-    return max([*points, *(_farthest(body, seen) for body in ambient.bodies)]) / shape.size
-
-
-def _farthest(body: SphereBody | CylinderBody | BoxBody | HalfSpace, seen: int) -> float:
-    match body:
-        case SphereBody():
-            return math.hypot(*body.centre[:seen]) + body.radius
-        case CylinderBody():
-            across = math.hypot(*body.centre[:2]) + body.radius
-            return across if seen == 2 else math.hypot(across, abs(body.centre[2]) + body.length / 2)
-        case BoxBody():
-            return math.hypot(*(abs(c) + edge / 2 for c, edge in zip(body.centre[:seen], body.size, strict=False)))
-        case HalfSpace():
-            return abs(body.level)
+    return max([*points, *(body.farthest(seen) for body in ambient.bodies)]) / shape.size
