@@ -38,12 +38,6 @@ class Cut:
     facets: Integers
 
     @cached_property
-    def _on(self) -> Mask:
-        on = np.zeros(int(self.elements.max()) + 1, bool)
-        on[self.facets] = True
-        return on
-
-    @cached_property
     def _walls(self) -> Integers:
         """Pairs of elements with a facet between them that is not of the interface, and that facet: (k, 2 + d)."""
         d = self.elements.shape[1] - 1
@@ -71,62 +65,32 @@ class Cut:
         return both[:, 0], both[:, 1]
 
     @cached_property
-    def _vertex_fans(self) -> tuple[Integers, Integers, Integers]:
-        """Element, vertex and fan of every pair of an element and a vertex of the interface that it touches."""
-        element, local = np.nonzero(self._on[self.elements])
-        vertex = self.elements[element, local]
-        number = self._pair_number(element, vertex)
-        first, second = [], []
-        for column in range(2, self._walls.shape[1]):
-            corner = self._walls[:, column]
-            on = self._on[corner]
-            first.append(self._pair_number(self._walls[on, 0], corner[on]))
-            second.append(self._pair_number(self._walls[on, 1], corner[on]))
-        return element, vertex, _components(number, np.concatenate(first), np.concatenate(second))
+    def _fans(self) -> tuple[_Fans, ...]:
+        """Around the vertices of the interface, in space also around its edges."""
+        sizes = range(1, self.facets.shape[1])
+        return tuple(_Fans.around(self.elements, self.facets, self._walls, size) for size in sizes)
 
-    def _pair_number(self, element: Integers, vertex: Integers) -> Integers:
-        return np.asarray(element * (len(self._on)) + vertex)
-
-    @cached_property
+    @property
     def rim_vertices(self) -> Integers:
         """Vertices of the rims.
 
         Raises:
             JunctionError: three or more sheets meet.
         """
-        _, vertex, fan = self._vertex_fans
-        vertices, count = np.unique(np.unique(np.column_stack([vertex, fan]), axis=0)[:, 0], return_counts=True)
-        if np.any(count > 2):
-            raise JunctionError("three or more sheets of the shell meet")
-        return np.asarray(vertices[count == 1])
+        fans = self._fans[0]
+        return np.asarray(fans.nodes[fans.rim, 0])
 
-    @cached_property
+    @property
     def rim_edges(self) -> Integers:
-        """Edges (k, 2) of the rims of a surface, by their vertices; a curve has none."""
-        d = self.elements.shape[1] - 1
-        if d == 2:
+        """Edges (k, 2) of the rims of a surface, by their vertices; a curve has none.
+
+        Raises:
+            JunctionError: three or more sheets meet.
+        """
+        if len(self._fans) == 1:
             return np.zeros((0, 2), np.int64)
-        edges = np.sort(np.concatenate([self.facets[:, list(c)] for c in combinations(range(3), 2)]), axis=1)
-        edges = np.unique(edges, axis=0)
-        owned: list[Integers] = []
-        for c in combinations(range(4), 2):
-            where = _index(np.sort(self.elements[:, list(c)], axis=1), edges)
-            hit = np.flatnonzero(where >= 0)
-            owned.append(np.column_stack([hit, where[hit]]))
-        pairs = np.concatenate(owned)
-        first, second = [], []
-        for c in combinations(range(3), 2):
-            where = _index(np.sort(self._walls[:, [2 + i for i in c]], axis=1), edges)
-            hit = np.flatnonzero(where >= 0)
-            first.append(self._walls[hit, 0] * len(edges) + where[hit])
-            second.append(self._walls[hit, 1] * len(edges) + where[hit])
-        fan = _components(
-            pairs[:, 0] * len(edges) + pairs[:, 1], np.concatenate(first), np.concatenate(second)
-        )
-        edge, count = np.unique(np.unique(np.column_stack([pairs[:, 1], fan]), axis=0)[:, 0], return_counts=True)
-        if np.any(count > 2):
-            raise JunctionError("three or more sheets of the shell meet")
-        return np.asarray(edges[edge[count == 1]])
+        fans = self._fans[1]
+        return np.asarray(fans.nodes[fans.rim])
 
     def sides(self, top: Mask) -> Integers:
         """``TOP``, ``BOTTOM``, ``RIM`` (touches the interface in rims only) or ``AWAY`` for every element; ``top`` says
@@ -135,22 +99,20 @@ class Cut:
         Raises:
             CloseSheetsError: an element touches both sides.
         """
-        element, vertex, fan = self._vertex_fans
-        rim = np.isin(vertex, self.rim_vertices)
-        label = np.zeros(int(fan.max()) + 1, np.int64)
-        pair = dict(zip(self._pair_number(element, vertex).tolist(), fan.tolist(), strict=True))
-        rims = set(self.rim_vertices.tolist())
-        for one, facet, up in zip(*self.beside, top, strict=True):
-            for corner in self.facets[facet].tolist():
-                if corner not in rims:
-                    label[pair[one * len(self._on) + corner]] = TOP if up else BOTTOM
+        element, facet = self.beside
+        found = np.where(top, TOP, BOTTOM)
+        touching, label = [element], [found]
+        for fans in self._fans:
+            inner = ~fans.rim[fans.node]
+            touching.append(fans.element[inner])
+            label.append(fans.labels(element, self.facets[facet], found)[fans.fan[inner]])
         low, high = (np.zeros(len(self.elements), np.int64) for _ in range(2))
-        np.minimum.at(low, element[~rim], label[fan[~rim]])
-        np.maximum.at(high, element[~rim], label[fan[~rim]])
+        np.minimum.at(low, np.concatenate(touching), np.concatenate(label))
+        np.maximum.at(high, np.concatenate(touching), np.concatenate(label))
         if np.any((low < 0) & (high > 0)):
             raise CloseSheetsError("an element touches both sides of the shell")
         side = low + high
-        side[np.setdiff1d(element[rim], np.flatnonzero(side))] = RIM
+        side[np.setdiff1d(self._fans[0].element, np.flatnonzero(side))] = RIM
         return np.asarray(side)
 
     def rooms(self) -> Integers:
@@ -158,6 +120,57 @@ class Cut:
         count = len(self.elements)
         links = coo_array((np.ones(len(self._walls)), (self._walls[:, 0], self._walls[:, 1])), shape=(count, count))
         return np.asarray(connected_components(links, directed=False)[1])
+
+
+@dataclass(frozen=True)
+class _Fans:
+    """Fans around the vertices or edges of the interface, its ``nodes`` (n, 1 or 2).
+
+    ``element``, ``node`` and ``fan`` are of every pair of an element and a node that it has; ``rim`` is of the nodes.
+    """
+
+    nodes: Integers
+    element: Integers
+    node: Integers
+    fan: Integers
+    rim: Mask
+
+    @classmethod
+    def around(cls, elements: Integers, facets: Integers, walls: Integers, size: int) -> _Fans:
+        """Fans around the nodes of ``size`` vertices; ``walls`` are those of the ``Cut``.
+
+        Raises:
+            JunctionError: three or more sheets meet in a node.
+        """
+        nodes = np.unique(np.concatenate(_parts(facets, size)), axis=0)
+        element, node = _on(elements, nodes, size)
+        wall, shared = _on(walls[:, 2:], nodes, size)
+        first, second = (walls[wall, k] * len(nodes) + shared for k in range(2))
+        fan = _components(element * len(nodes) + node, first, second)
+        count = np.bincount(np.unique(np.column_stack([node, fan]), axis=0)[:, 0], minlength=len(nodes))
+        if np.any(count > 2):
+            raise JunctionError("three or more sheets of the shell meet")
+        return cls(nodes, element, node, fan, count == 1)
+
+    def labels(self, element: Integers, facets: Integers, found: Integers) -> Integers:
+        """What was ``found`` for the pairs of ``element`` and one of the ``facets`` of it, for every fan."""
+        label = np.zeros(int(self.fan.max()) + 1, np.int64)
+        pair, node = _on(facets, self.nodes, self.nodes.shape[1])
+        known = np.column_stack([element[pair], node])
+        label[self.fan[_index(known, np.column_stack([self.element, self.node]))]] = found[pair]
+        return label
+
+
+def _parts(rows: Integers, size: int) -> list[Integers]:
+    """Vertices or edges of simplices, sorted within."""
+    return [np.sort(rows[:, list(c)], axis=1) for c in combinations(range(rows.shape[1]), size)]
+
+
+def _on(rows: Integers, nodes: Integers, size: int) -> tuple[Integers, Integers]:
+    """Every (row, node) where the node is a vertex or edge of that simplex."""
+    where = np.stack([_index(part, nodes) for part in _parts(rows, size)], axis=1)
+    row, column = np.nonzero(where >= 0)
+    return row, where[row, column]
 
 
 def _components(numbers: Integers, first: Integers, second: Integers) -> Integers:

@@ -39,9 +39,11 @@ from embedding.errors import Problem, SceneError
 from embedding.geometry import curvature, meshing
 from embedding.geometry.cut import CloseSheetsError, JunctionError
 from embedding.geometry.facets import Facets, Integers, Mask, OneSidedError
+from embedding.geometry.outline import NoMeshError
 from embedding.geometry.reduction import Reduction
-from embedding.geometry.sides import signs
+from embedding.geometry.sides import UnclearSidesError, signs
 from embedding.geometry.sizes import MeshSizes as MeshSizes
+from embedding.geometry.surroundings import BodyError
 from embedding.scene import Shape as Shape
 from embedding.scene import SurfaceFile
 
@@ -230,8 +232,8 @@ def build(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Domain:
     Lengths are divided by the size of the shape.
 
     Raises:
-        SceneError: the surface has no two sides, because it is one-sided or has junctions inside an ambient.
-        RuntimeError: the mesh has holes, or the sides cannot be told apart on it.
+        SceneError: the surface has no two sides, because it is one-sided or has junctions inside an ambient; there is
+            no room for a body; or there is no sound mesh of these sizes.
     """
     try:
         meshed = meshing.mesh(shape, reduction, sizes)
@@ -244,8 +246,16 @@ def build(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Domain:
         reason = f"not allowed: {error}, so it has no top" if isinstance(error, OneSidedError) else (
             f"not allowed with an ambient: {error}, and the space between them has no top and bottom")  # fmt: skip
         raise SceneError([Problem("shell.shape", reason)]) from error
-    except CloseSheetsError as error:
-        raise RuntimeError(f"{error}: make the mesh on the shell finer") from error
+    except BodyError as error:
+        raise SceneError([Problem(f"ambient.bodies.{error.number}", f"not allowed here: {error}")]) from error
+    except (CloseSheetsError, UnclearSidesError) as error:
+        raise _unfit(f"{error}: make the mesh on the shell finer") from error
+    except NoMeshError as error:
+        raise _unfit(f"{error}: choose another size") from error
     if np.any((domain.facets.neighbours == 1) & ~domain.facets.on_edges):
-        raise RuntimeError("the mesh of the shell has holes: change the size of its elements")
+        raise _unfit("the mesh of the shell has holes: choose another size")
     return domain
+
+
+def _unfit(reason: str) -> SceneError:
+    return SceneError([Problem("discretisation.shell_size", reason)])

@@ -34,8 +34,8 @@ def mesh(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Meshed:
     """Mesh of the dimensionless ``shape``: lengths are divided by its size.
 
     Raises:
-        RuntimeError: no mesh of these sizes.
-        JunctionError, CloseSheetsError, OneSidedError: the shell has no two sides in its ambient.
+        BodyError, NoMeshError: no room for a body, no mesh of these sizes.
+        JunctionError, CloseSheetsError, OneSidedError, UnclearSidesError: the shell has no two sides in its ambient.
     """
     geometry = outline(shape, reduction)
     none = np.zeros((0, 2), np.int64)

@@ -39,12 +39,16 @@ class SurfaceOutline:
                 edge.maxh = sizes.along(edge.name)
 
     def mesh(self, sizes: MeshSizes) -> Mesh:
-        """Mesh of the surface alone, as ``shell``."""
+        """Mesh of the surface alone, as ``shell``.
+
+        Raises:
+            NoMeshError: the mesh generator gave up.
+        """
         self.prepare(sizes)
         wanted = MeshingParameters(maxh=sizes.shell, grading=sizes.grading, perfstepsend=MeshingStep.MESHSURFACE)
         for point in sizes.points:
             wanted.RestrictH(*point, h=sizes.shell / AT_POINTS)
-        return Mesh(OCCGeometry(self.shape).GenerateMesh(mp=wanted))
+        return Mesh(generated(OCCGeometry(self.shape), wanted))
 
 
 @dataclass(frozen=True)
@@ -62,14 +66,35 @@ class CurveOutline:
                 vertex.maxh = sizes.along(vertex.name)
 
     def mesh(self, sizes: MeshSizes) -> Mesh:
-        """Mesh of the curve alone, as ``shell``."""
+        """Mesh of the curve alone, as ``shell``.
+
+        Raises:
+            NoMeshError: the mesh generator gave up.
+        """
         wire = Wire(list(self.edges))
         wire.edges.name = "shell"
         self.name_ends(wire, sizes)
-        return Mesh(OCCGeometry(wire, dim=2).GenerateMesh(maxh=sizes.shell, grading=sizes.grading))
+        wanted = MeshingParameters(maxh=sizes.shell, grading=sizes.grading)
+        return Mesh(generated(OCCGeometry(wire, dim=2), wanted))
 
 
 Outline = SurfaceOutline | CurveOutline
+
+
+class NoMeshError(RuntimeError):
+    """The mesh generator gave up."""
+
+
+def generated(geometry: OCCGeometry, wanted: MeshingParameters) -> Any:
+    """The netgen mesh of a geometry.
+
+    Raises:
+        NoMeshError: the mesh generator gave up.
+    """
+    try:
+        return geometry.GenerateMesh(mp=wanted)
+    except Exception as error:  # netgen raises its own untyped exceptions
+        raise NoMeshError(f"the mesh generator gave up ({error})") from error
 
 
 def real(edge: Edge) -> bool:

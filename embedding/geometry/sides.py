@@ -29,11 +29,15 @@ CLEAR = 1e-3
 """Smallest mean of N along the direction of the top side that settles a part."""
 
 
+class UnclearSidesError(RuntimeError):
+    """The sides cannot be told apart on this mesh."""
+
+
 def signs(facets: Facets, shape: Shape, reduction: Reduction) -> Floats:
     """+1 or -1 for each element: times it, the mesh's own normal points to the top side.
 
     Raises:
-        RuntimeError: the sides cannot be told apart on this mesh.
+        UnclearSidesError: the sides cannot be told apart on this mesh.
         OneSidedError: the surface has only one side.
     """
     own = facets.at_centres(reduction.normal)
@@ -47,7 +51,7 @@ def signs(facets: Facets, shape: Shape, reduction: Reduction) -> Floats:
     count = facets.parts.max() + 1
     share = np.bincount(facets.parts, upwards * area, count) / np.bincount(facets.parts, area, count)
     if np.abs(share).min() < CLEAR:
-        raise RuntimeError("the shell's sides cannot be told apart on this mesh: make it finer on the shell")
+        raise UnclearSidesError("the shell's sides cannot be told apart on this mesh")
     return np.asarray(consistent * np.sign(share)[facets.parts])
 
 

@@ -16,7 +16,7 @@ from netgen.occ import Box, Glue, MoveTo, OCCGeometry, Pnt, WorkPlane
 from netgen.occ import Sphere as SphereSolid
 from ngsolve import BND, Mesh
 
-from embedding.geometry.outline import CurveOutline, Outline, SurfaceOutline
+from embedding.geometry.outline import CurveOutline, Outline, SurfaceOutline, generated
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.sizes import MeshSizes
 from embedding.geometry.surface import positive_box
@@ -28,11 +28,20 @@ ACROSS_GAP = 1.0
 """Elements on the shell are at most this many times as large as the gap to a body."""
 
 
+class BodyError(ValueError):
+    """There is no room for the body ``number``."""
+
+    def __init__(self, number: int, reason: str) -> None:
+        self.number = number
+        super().__init__(reason)
+
+
 def raw_mesh(outline: Outline, reduction: Reduction, sizes: MeshSizes) -> netgen.Mesh:
     """Straight-sided mesh in which faces of the shell are called ``shell 0`` and so on (3D), edges ``shell`` (2D).
 
     Raises:
-        RuntimeError: the mesh generator gave up.
+        BodyError: a body touches the shell or another body, or reaches beyond the end of space.
+        NoMeshError: the mesh generator gave up.
     """
     sizes = _near_bodies(outline, reduction, sizes)
     space = _Space(reduction, sizes)
@@ -46,10 +55,7 @@ def raw_mesh(outline: Outline, reduction: Reduction, sizes: MeshSizes) -> netgen
         geometry = OCCGeometry(whole)
     else:
         geometry = OCCGeometry(_section(outline, space, sizes), dim=2)
-    try:
-        return geometry.GenerateMesh(mp=_wanted(outline, sizes))
-    except Exception as error:  # netgen raises its own untyped exceptions
-        raise RuntimeError(f"the space around the shell could not be meshed ({error}): change the sizes") from error
+    return generated(geometry, _wanted(outline, sizes))
 
 
 def _section(outline: CurveOutline, space: _Space, sizes: MeshSizes) -> Any:
@@ -90,11 +96,14 @@ def _local_sizes(mesh: Mesh) -> tuple[Any, Any]:
 def _near_bodies(outline: Outline, reduction: Reduction, sizes: MeshSizes) -> MeshSizes:
     """Elements on the shell no larger than the gap to the nearest body."""
     shapes = outline.edges if isinstance(outline, CurveOutline) else (outline.shape,)
-    bodies = [body.shape(reduction, 2 * sizes.radius) for body in sizes.bodies]
-    gap = min((shape.Distance(body) for shape in shapes for body in bodies), default=float("inf"))
-    if gap < THINNEST:
-        raise RuntimeError("a body touches the shell")
-    return replace(sizes, shell=min(sizes.shell, ACROSS_GAP * gap))
+    nearest = float("inf")
+    for number, body in enumerate(sizes.bodies):
+        solid = body.shape(reduction, 2 * sizes.radius)
+        gap = min(shape.Distance(solid) for shape in shapes)
+        if gap < THINNEST:
+            raise BodyError(number, "it touches the shell")
+        nearest = min(nearest, gap)
+    return replace(sizes, shell=min(sizes.shell, ACROSS_GAP * nearest))
 
 
 class _Space:
@@ -107,9 +116,10 @@ class _Space:
     def parts(self) -> list[Any]:
         """The ambient, the mapped exterior if there is one, and the solid bodies; all named."""
         bodies = [body.shape(self._reduction, self._reach) for body in self._sizes.bodies]
+        window, inner = self._window(), self._ball(self._sizes.radius, "outer")
+        self._check(bodies, inner)
         for number, body in enumerate(bodies):
             self._name(body, f"body{number}")
-        window, inner = self._window(), self._ball(self._sizes.radius, "outer")
         parts = [self._filled(self._without(inner, bodies) * window, "outside")]
         if self._sizes.beyond:
             exterior = self._ball(REACH * self._sizes.radius, "infinity") - self._ball(self._sizes.radius, "outer")
@@ -118,6 +128,18 @@ class _Space:
             if body.solid:
                 parts.append(self._filled(shape * window, f"magnet{number}"))
         return parts
+
+    def _check(self, bodies: list[Any], inner: Any) -> None:
+        for number, body in enumerate(bodies):
+            if self._sizes.bodies[number].kind != "half-space" and self._measure(body - inner) > THINNEST:
+                raise BodyError(number, "it reaches beyond the end of space")
+            for other, earlier in enumerate(bodies[:number]):
+                if self._measure(body * earlier) > THINNEST * self._measure(body):
+                    raise BodyError(number, f"it overlaps with ambient.bodies.{other}")
+
+    def _measure(self, shape: Any) -> float:
+        parts = shape.solids if self._reduction.dimension == 3 else shape.faces
+        return float(sum(part.mass for part in parts))
 
     @staticmethod
     def _without(part: Any, bodies: list[Any]) -> Any:

@@ -145,7 +145,7 @@ def alone(mesh: Mesh) -> meshing.Meshed:
 def test_bad_meshes_end_in_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     shape, sizes = CASES["annulus"].shape, MeshSizes(0.3, 0.3, 0.0, 0.3, 1)
     monkeypatch.setattr(meshing, "mesh", lambda *_: alone(moebius(20, False)))
-    with pytest.raises(RuntimeError, match="has holes"):
+    with pytest.raises(SceneError, match="discretisation.shell_size: .* has holes"):
         build(shape, Reduction("3d"), sizes)
     monkeypatch.setattr(Facets, "on_edges", True)
     monkeypatch.setattr(meshing, "mesh", lambda *_: alone(moebius(20, True)))
