@@ -11,6 +11,7 @@ from embedding.scene import Scene, Stage
 REASONS = {
     "joint": "one Newton step for shell and field: quadratic, and stable up to the limit point itself",
     "staggered": "field and shell in turn until neither changes the other: the joint answer, slower near pull-in",
+    "unperturbed": "the applied field acts on the shell as if the shell did not change it",
     "once": "the field of the undeformed shape acts as a given load: how far that is off is recorded (coupling_gap)",
 }
 
@@ -36,7 +37,7 @@ def _refused(scene: Scene, rung: str) -> Iterator[Problem]:
     if rung not in REASONS:
         reason = f"not modelled by this version: use one of {', '.join(REASONS)}"
         yield Problem("model.coupling", f'"{rung}" is not allowed: {reason}')
-    if rung == "joint":
+    if rung in ("joint", "unperturbed"):
         return
     for number, stage in enumerate(scene.path):
         for field in _needs_tangent(stage):

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from embedding.geometry.domain import MeshSizes
 from embedding.geometry.reduction import Reduction
+
+Extent = Literal["none", "surroundings", "inside", "given"]
+"""How much of the field is modelled: nothing, all around the shell, inside the shell, or the given field alone."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +27,7 @@ class Plan:
 
     ``opened`` names the faces ("t", "b") at their true places, ``odd_planes`` the mirror planes across which the
     potential changes sign. ``bending`` says whether the shell resists it,
-    ``locking_cured`` whether membrane strains are interpolated for it, ``coupling`` the rung between shell and field.
+    ``locking_cured`` whether membrane strains are interpolated for it, ``coupling`` the rung between shell and field, ``extent`` how much of the field is modelled.
     """
 
     reduction: Reduction
@@ -34,6 +38,7 @@ class Plan:
     bending: bool = False
     locking_cured: bool = False
     coupling: str = "joint"
+    extent: Extent = "none"
 
     def text(self) -> str:
         """The decisions as aligned lines."""

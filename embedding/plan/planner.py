@@ -8,12 +8,13 @@ from embedding.geometry.domain import MeshSizes
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.sizes import AT_POINTS
 from embedding.plan.coupling import choose_coupling
-from embedding.plan.decisions import Decision, Plan
-from embedding.plan.far_field import choose_far_field
+from embedding.plan.decisions import Decision, Extent, Plan
+from embedding.plan.field import choose_extent, choose_interface, describe_potential
 from embedding.plan.symmetry import choose_reduction, odd_planes
 from embedding.plan.theory import choose_locking, choose_theory
 from embedding.scene import Scene
 
+FAR_RADIUS = 4.0
 SHELL_SIZE = {"3d": 0.4, "axisymmetric": 0.2, "plane-strain": 0.2}
 FLAT_SIZE = 0.35
 
@@ -26,8 +27,12 @@ def explain(scene: Scene) -> Plan:
     """
     reduction, first = choose_reduction(scene)
     odd = odd_planes(scene, reduction)
-    opened, faces = _interface(scene)
-    sizes, mesh = _sizes(scene, reduction.name)
+    extent, field = choose_extent(scene)
+    sizes, mesh = _sizes(scene, reduction.name, meshed=extent == "surroundings")
+    opened: tuple[str, ...] = ()
+    if extent == "surroundings":
+        opened, faces = choose_interface(scene, _rim_size(scene, sizes))
+        field = (*describe_potential(scene), _far_field(scene), faces)
     theory = choose_theory(scene)
     bending = theory.choice == "bending"
     points = _loaded_points(scene, reduction) if bending else ()
@@ -37,11 +42,12 @@ def explain(scene: Scene) -> Plan:
         mesh = (*mesh, Decision("mesh at point loads", f"{sizes.shell / AT_POINTS:.3g} x size", reason))
     coupling = choose_coupling(scene)
     between = (coupling,) if coupling else ()
-    rest = (_loads(scene), *_rigid(scene, reduction), *between, *_field(scene), *faces, *mesh, _order(scene))
+    rest = (_loads(scene), *_rigid(scene, reduction), *between, *field, *mesh, _order(scene, extent))
     locking = choose_locking(scene) if bending else None
     decisions = (first, theory, *([locking] if locking else []), *rest)
     cured = locking is not None and locking.choice == "cured"
-    return Plan(reduction, sizes, opened, odd, decisions, bending, cured, coupling.choice if coupling else "joint")
+    rung = coupling.choice if coupling else "joint"
+    return Plan(reduction, sizes, opened, odd, decisions, bending, cured, rung, extent)
 
 
 def _loaded_points(scene: Scene, reduction: Reduction) -> tuple[tuple[float, ...], ...]:
@@ -75,59 +81,43 @@ def _rigid(scene: Scene, reduction: Reduction) -> tuple[Decision, ...]:
     return (Decision("rigid motion", "held", reason),)
 
 
-def _field(scene: Scene) -> tuple[Decision, ...]:
-    if scene.ambient is None:
-        return (Decision("ambient", "none", "the scene has no field: nothing around the shell is meshed"),)
-    if _conductor(scene):
-        jump = Decision("potential", "continuous", "both faces are electrodes at one potential: no jump to solve for")
-    else:
-        jump = Decision("potential", "with a jump", "the faces may differ: the jump is an unknown on the shell")
-    moving = Decision("field", "moves with the shell", "the ambient follows the faces")
-    return moving, jump
+def _far_field(scene: Scene) -> Decision:
+    if scene.ambient is not None and scene.ambient.outer == "grounded":
+        return Decision("far field", "grounded", "potential prescribed on the outer boundary, as the scene states")
+    return Decision("far field", "second-order Robin", "exact for net charge and dipole; higher multipoles decay")
 
 
-def _interface(scene: Scene) -> tuple[tuple[str, ...], tuple[Decision, ...]]:
-    if scene.ambient is None:
-        return (), ()
-    ratio = scene.shell.thickest / scene.shell.shape.size
-    if scene.model.interface == "closed":
-        reason = f"pinned by the scene; first order in the thickness, about {1.6 * ratio:.1e} of the field's load"
-        return (), (Decision("interface", "closed", reason),)
-    reason = "faces at their true places: second order in the thickness"
-    if scene.model.interface == "auto" and _conductor(scene):
-        reason += "; the bottom face bounds a space without a field, where its place is not felt"
-        return ("t",), (Decision("interface", "opened at the top", reason),)
-    return ("t", "b"), (Decision("interface", "opened", reason),)
+def _rim_size(scene: Scene, sizes: MeshSizes) -> float | None:
+    """Size of the elements along the rims, None for a closed shell."""
+    shape = scene.shell.shape
+    if shape.closed:
+        return None
+    return min((sizes.along(edge) for edge in shape.edges), default=sizes.shell)
 
 
-def _conductor(scene: Scene) -> bool:
-    """Are both faces of the closed shell electrodes at one potential? Then there is no field inside."""
-    top, bottom = scene.faces.top, scene.faces.bottom
-    return top is not None and bottom is not None and top.voltage == bottom.voltage
-
-
-def _sizes(scene: Scene, reduction: str) -> tuple[MeshSizes, tuple[Decision, ...]]:
+def _sizes(scene: Scene, reduction: str, *, meshed: bool) -> tuple[MeshSizes, tuple[Decision, ...]]:
     chosen, size = scene.discretisation, scene.shell.shape.size
-    flat = reduction == "3d" and scene.ambient is None and scene.shell.shape.curvature_radius is None
+    flat = reduction == "3d" and not meshed and scene.shell.shape.curvature_radius is None
     default = (FLAT_SIZE if flat else SHELL_SIZE[reduction]) * min(1.0, 2 * scene.shell.shape.narrowest / size)
     shell = chosen.shell_size / size if chosen.shell_size else default
     edges = tuple((edge, length / size) for edge, length in chosen.edge_size.items())
     origin = "stated by the scene" if chosen.shell_size else f"default of {reduction}"
     decisions = [Decision("mesh on the shell", f"{shell:.3g} x size", origin)]
-    if scene.ambient is None:
+    if scene.ambient is None or not meshed:
         return MeshSizes(shell, shell, 0.0, chosen.grading, chosen.order, edges), tuple(decisions)
-    end = choose_far_field(scene, scene.ambient)
-    decisions += end.decisions
-    far = chosen.ambient_size / size if chosen.ambient_size else end.radius / 2
+    stated = scene.ambient.radius
+    radius = stated / size if stated else FAR_RADIUS
+    origin = "stated by the scene" if stated else f"default, {FAR_RADIUS:g} times the shell"
+    decisions.append(Decision("ambient radius", f"{radius:.3g} x size", origin))
+    far = chosen.ambient_size / size if chosen.ambient_size else radius / 2
     origin = "stated by the scene" if chosen.ambient_size else "half the ambient's radius"
     decisions.append(Decision("mesh far away", f"{far:.3g} x size", f"{origin}; grading {chosen.grading:g}"))
-    sizes = MeshSizes(shell, far, end.radius, chosen.grading, chosen.order, beyond=end.beyond)
-    return sizes, tuple(decisions)
+    return MeshSizes(shell, far, radius, chosen.grading, chosen.order), tuple(decisions)
 
 
-def _order(scene: Scene) -> Decision:
+def _order(scene: Scene, extent: Extent) -> Decision:
     order = scene.discretisation.order
     reason = "polynomial order of shell and geometry"
-    if scene.ambient is not None:
+    if extent == "surroundings":
         reason += f"; the potential has order {order + 1}, without which a soft membrane creases"
     return Decision("order", str(order), reason)

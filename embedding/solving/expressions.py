@@ -26,3 +26,23 @@ def over_surface(field: SurfaceField, reduction: Reduction, scales: Scales) -> A
     zero = ngsolve.CF(0.0)
     place = {"3d": (x, y, z), "axisymmetric": (x, zero, y), "plane-strain": (x, y, zero)}[reduction.name]
     return ngsolve.CF(field(*place, FUNCTIONS))
+
+
+def vector_at(field: Any, place: Any, reduction: Reduction, scales: Scales) -> Any:
+    """SI values (mesh components) of a field of three expressions at ``place``, a position on the mesh (d,)."""
+    x, y = (scales.length * place[i] for i in (0, 1))
+    zero = ngsolve.CF(0.0)
+    three = {
+        "3d": lambda: (x, y, scales.length * place[2]),
+        "axisymmetric": lambda: (x, zero, y),
+        "plane-strain": lambda: (x, y, zero),
+    }[reduction.name]()
+    a, b, c = (component(*three, FUNCTIONS) for component in field.components)
+    return ngsolve.CF({"3d": (a, b, c), "axisymmetric": (a, c), "plane-strain": (a, b)}[reduction.name])
+
+
+def vector_over_surface(field: Any, reduction: Reduction, scales: Scales) -> Any:
+    """SI values (mesh components) over the reference surface of a constant vector, or of a field of expressions."""
+    if isinstance(field, tuple):
+        return ngsolve.CF(reduction.project(field))
+    return vector_at(field, reduction.position, reduction, scales)
