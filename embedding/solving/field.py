@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-import ngsolve
 from ngsolve import CF, Cross, InnerProduct
 
 from embedding.ambient.sources import Electrodes, Source
@@ -15,17 +14,24 @@ from embedding.coupling.physics import FieldPhysics, Solid
 from embedding.geometry.domain import Domain
 from embedding.geometry.reduction import Reduction
 from embedding.plan.decisions import Plan
-from embedding.scene import Scales, Scene
-from embedding.solving.expressions import FUNCTIONS, vector_at, vector_over_surface
+from embedding.scene import AppliedField, Body, Electrode, LineCurrent, Scales, Scene
+from embedding.solving.expressions import vector_at, vector_over_surface
 from embedding.solving.shell import pick
 
-Vector = tuple[float, float, float]
+NOTHING: dict[str, Callable[[Domain], Any]] = {
+    "relative_permittivity": lambda _: CF(1.0),
+    "relative_permeability": lambda _: CF(1.0),
+    "remanence": lambda domain: CF((0.0,) * domain.mesh.dim),
+    "polarisation": lambda domain: CF((0.0,) * domain.mesh.dim),
+    "saturation": lambda _: CF(1e6),
+}
+"""What a shell has where only some of its regions state a quantity."""
 
 
 def field_on(scene: Scene, plan: Plan, scales: Scales, domain: Domain) -> FieldPhysics | None:
     """The dimensionless statement of the field on the mesh of ``domain``; None for a scene without one."""
     ambient = scene.ambient
-    if ambient is None:
+    if ambient is None or plan.extent == "none":
         return None
     return FieldPhysics(
         electrodes=_electrodes(scene, scales),
@@ -51,7 +57,7 @@ def _electrodes(scene: Scene, scales: Scales) -> Electrodes:
     return Electrodes(top, bottom, where=where)
 
 
-def _source(stated: Any, scales: Scales, unit_charge: float) -> Source:
+def _source(stated: Electrode | Body, scales: Scales, unit_charge: float) -> Source:
     if stated.charge is not None:
         return Source(charge=stated.charge / unit_charge)
     return Source(voltage=stated.voltage / scales.potential)
@@ -67,8 +73,7 @@ def _matter(scene: Scene, domain: Domain, scales: Scales) -> Matter:
         stated = getattr(shell, name)
         if stated is None and not parts:
             return None
-        rest = scaled(stated) if stated is not None else None
-        return pick(domain, parts, CF(0.0 * parts[0][1]) if rest is None else rest)
+        return pick(domain, parts, scaled(stated) if stated is not None else NOTHING[name](domain))
 
     return Matter(
         over(contrast, float),
@@ -78,9 +83,7 @@ def _matter(scene: Scene, domain: Domain, scales: Scales) -> Matter:
 
 
 def _applied(scene: Scene, plan: Plan, scales: Scales) -> tuple[float, ...]:
-    stated = scene.ambient.applied_field if scene.ambient is not None else (0.0, 0.0, 0.0)
-    if not isinstance(stated, tuple):
-        return (0.0,) * plan.reduction.dimension
+    stated = scene.ambient.uniform_field if scene.ambient is not None else (0.0, 0.0, 0.0)
     return tuple(component / scales.field for component in plan.reduction.project(stated))
 
 
@@ -90,8 +93,8 @@ def _varying(scene: Scene, reduction: Reduction, scales: Scales) -> Callable[[An
     if ambient is None:
         return None
     parts: list[Callable[[Any], Any]] = []
-    if not isinstance(ambient.applied_field, tuple):
-        stated = ambient.applied_field
+    stated = ambient.applied_field
+    if isinstance(stated, AppliedField):
         parts.append(lambda x: vector_at(stated, x, reduction, scales) / scales.field)
     for line in ambient.line_currents:
         parts.append(_line_current(line, reduction, scales))
@@ -100,7 +103,7 @@ def _varying(scene: Scene, reduction: Reduction, scales: Scales) -> Callable[[An
     return lambda x: sum((part(x) for part in parts[1:]), parts[0](x))
 
 
-def _line_current(line: Any, reduction: Reduction, scales: Scales) -> Callable[[Any], Any]:
+def _line_current(line: LineCurrent, reduction: Reduction, scales: Scales) -> Callable[[Any], Any]:
     """H = I / 2 pi  t x d / |d|^2 around a straight line along t, d the distance vector from it (Biot and Savart)."""
     strength = line.current / (2 * math.pi * scales.length * scales.field)
     through = CF(tuple(c / scales.length for c in line.through))
@@ -117,7 +120,7 @@ def _line_current(line: Any, reduction: Reduction, scales: Scales) -> Callable[[
     return field
 
 
-def _body(body: Any, reduction: Reduction, scales: Scales) -> Source | Solid:
+def _body(body: Body, reduction: Reduction, scales: Scales) -> Source | Solid:
     lengths = 1 if reduction.name == "plane-strain" else 2
     if body.is_conductor:
         if body.potential is not None:

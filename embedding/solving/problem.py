@@ -9,9 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from embedding.ambient.sources import Electrodes, Source
-from embedding.ambient.transmission import Matter
-from embedding.coupling.physics import FieldPhysics, Physics
+from embedding.coupling.physics import Physics
 from embedding.coupling.system import System
 from embedding.errors import Problem as SceneProblem
 from embedding.errors import SceneError
@@ -20,6 +18,7 @@ from embedding.geometry.reduction import Reduction
 from embedding.plan.decisions import Plan
 from embedding.scene import InfiniteCylinder, Scales, Scene
 from embedding.scene.checks_loads import needs_bending
+from embedding.solving.field import field_on
 from embedding.solving.loads import mechanical_loads
 from embedding.solving.shell import law_on, thickness_on
 from embedding.solving.supports import held_by_supports
@@ -107,25 +106,9 @@ def physics_of(scene: Scene, plan: Plan, scales: Scales, domain: Domain) -> Phys
         axial_stretch=cylinder.axial_stretch if cylinder is not None else 1.0,
         volume_controlled=any(stage.volume_ratio is not None for stage in scene.path),
         opened=plan.opened,
-        field=_field(scene, plan, scales),
+        field=field_on(scene, plan, scales, domain),
         prescribed=held.prescribed,
         clamped=held.clamped,
         bending=plan.bending,
         locking_cured=plan.locking_cured,
     )
-
-
-def _field(scene: Scene, plan: Plan, scales: Scales) -> FieldPhysics | None:
-    ambient = scene.ambient
-    if ambient is None:
-        return None
-    top, bottom = scene.faces.top, scene.faces.bottom
-    electrodes = Electrodes(
-        Source(top.voltage / scales.potential) if top is not None else None,
-        Source(bottom.voltage / scales.potential) if bottom is not None else None,
-    )
-    electric = ambient.field == "electric"
-    contrast = scene.shell.relative_permittivity if electric else scene.shell.relative_permeability
-    applied = tuple(component / scales.field for component in plan.reduction.project(ambient.applied_field))
-    grounded, beyond = ambient.outer == "grounded", plan.sizes.beyond
-    return FieldPhysics(electrodes, Matter(contrast), applied, grounded, plan.odd_planes, beyond=beyond)

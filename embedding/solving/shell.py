@@ -32,7 +32,7 @@ def thickness_on(scene: Scene, domain: Domain, scales: Scales) -> Any:
         return thickness / scales.length
 
     parts = [(r, scaled(r.thickness)) for r in scene.shell.regions if r.thickness is not None]
-    thickness = _pick(domain, parts, scaled(scene.shell.thickness), _choose)
+    thickness = pick(domain, parts, scaled(scene.shell.thickness))
     if not isinstance(thickness, float):
         _refuse_negative(scene, domain, thickness)
     return thickness
@@ -41,20 +41,22 @@ def thickness_on(scene: Scene, domain: Domain, scales: Scales) -> Any:
 def density_on(scene: Scene, domain: Domain) -> Any:
     """Density in kg/m^3: a number, or a coefficient function where regions have their own."""
     parts = [(region, region.density) for region in scene.shell.regions if region.density is not None]
-    return _pick(domain, parts, scene.shell.density or 0.0, _choose)
+    return pick(domain, parts, scene.shell.density or 0.0)
 
 
 def law_on(scene: Scene, domain: Domain, scales: Scales) -> Law:
     """The law of the shell, in one piece or several."""
     parts = [(r, law_of(r.material, scales.stress)) for r in scene.shell.regions if r.material is not None]
-    return _pick(domain, parts, law_of(scene.shell.material, scales.stress), piecewise)
+    return pick(domain, parts, law_of(scene.shell.material, scales.stress), piecewise)
 
 
 def _choose(indicator: Any, inside: Any, outside: Any) -> Any:
     return IfPos(indicator, CF(inside), CF(outside))
 
 
-def _pick(domain: Domain, parts: list[tuple[Region, T]], rest: T, choose: Callable[[Any, T, T], T]) -> T:
+def pick(
+    domain: Domain, parts: list[tuple[Region, T]], rest: T, choose: Callable[[Any, T, T], T] = _choose
+) -> T:
     """``rest``, replaced on each region by its part."""
     for region, part in parts:
         rest = choose(indicator(domain, region.faces), part, rest)
