@@ -27,7 +27,8 @@ class Plan:
 
     ``opened`` names the faces ("t", "b") at their true places, ``odd_planes`` the mirror planes across which the
     potential changes sign. ``bending`` says whether the shell resists it,
-    ``locking_cured`` whether membrane strains are interpolated for it, ``coupling`` the rung between shell and field, ``extent`` how much of the field is modelled.
+    ``locking_cured`` whether membrane strains are interpolated for it, ``coupling`` the rung between shell and field,
+    ``extent`` how much of the field is modelled.
     """
 
     reduction: Reduction

@@ -10,13 +10,10 @@ from embedding.geometry.sizes import AT_POINTS
 from embedding.plan.coupling import choose_coupling
 from embedding.plan.decisions import Decision, Extent, Plan
 from embedding.plan.field import choose_extent, choose_interface, describe_potential
+from embedding.plan.mesh import choose_sizes
 from embedding.plan.symmetry import choose_reduction, odd_planes
 from embedding.plan.theory import choose_locking, choose_theory
 from embedding.scene import Scene
-
-FAR_RADIUS = 4.0
-SHELL_SIZE = {"3d": 0.4, "axisymmetric": 0.2, "plane-strain": 0.2}
-FLAT_SIZE = 0.35
 
 
 def explain(scene: Scene) -> Plan:
@@ -28,7 +25,7 @@ def explain(scene: Scene) -> Plan:
     reduction, first = choose_reduction(scene)
     odd = odd_planes(scene, reduction)
     extent, field = choose_extent(scene)
-    sizes, mesh = _sizes(scene, reduction.name, meshed=extent == "surroundings")
+    sizes, mesh = choose_sizes(scene, reduction.name, meshed=extent == "surroundings")
     opened: tuple[str, ...] = ()
     if extent == "surroundings":
         opened, faces = choose_interface(scene, _rim_size(scene, sizes))
@@ -93,26 +90,6 @@ def _rim_size(scene: Scene, sizes: MeshSizes) -> float | None:
     if shape.closed:
         return None
     return min((sizes.along(edge) for edge in shape.edges), default=sizes.shell)
-
-
-def _sizes(scene: Scene, reduction: str, *, meshed: bool) -> tuple[MeshSizes, tuple[Decision, ...]]:
-    chosen, size = scene.discretisation, scene.shell.shape.size
-    flat = reduction == "3d" and not meshed and scene.shell.shape.curvature_radius is None
-    default = (FLAT_SIZE if flat else SHELL_SIZE[reduction]) * min(1.0, 2 * scene.shell.shape.narrowest / size)
-    shell = chosen.shell_size / size if chosen.shell_size else default
-    edges = tuple((edge, length / size) for edge, length in chosen.edge_size.items())
-    origin = "stated by the scene" if chosen.shell_size else f"default of {reduction}"
-    decisions = [Decision("mesh on the shell", f"{shell:.3g} x size", origin)]
-    if scene.ambient is None or not meshed:
-        return MeshSizes(shell, shell, 0.0, chosen.grading, chosen.order, edges), tuple(decisions)
-    stated = scene.ambient.radius
-    radius = stated / size if stated else FAR_RADIUS
-    origin = "stated by the scene" if stated else f"default, {FAR_RADIUS:g} times the shell"
-    decisions.append(Decision("ambient radius", f"{radius:.3g} x size", origin))
-    far = chosen.ambient_size / size if chosen.ambient_size else radius / 2
-    origin = "stated by the scene" if chosen.ambient_size else "half the ambient's radius"
-    decisions.append(Decision("mesh far away", f"{far:.3g} x size", f"{origin}; grading {chosen.grading:g}"))
-    return MeshSizes(shell, far, radius, chosen.grading, chosen.order), tuple(decisions)
 
 
 def _order(scene: Scene, extent: Extent) -> Decision:

@@ -60,7 +60,7 @@ def _electrodes(scene: Scene, scales: Scales) -> Electrodes:
 def _source(stated: Electrode | Body, scales: Scales, unit_charge: float) -> Source:
     if stated.charge is not None:
         return Source(charge=stated.charge / unit_charge)
-    return Source(voltage=stated.voltage / scales.potential)
+    return Source(voltage=(stated.voltage or 0.0) / scales.potential)
 
 
 def _matter(scene: Scene, domain: Domain, scales: Scales) -> Matter:

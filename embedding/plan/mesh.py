@@ -1,0 +1,82 @@
+"""Element sizes, where the meshed space ends, and the bodies in it."""
+
+from __future__ import annotations
+
+import math
+
+from embedding.geometry.bodies import Body as MeshedBody
+from embedding.geometry.domain import MeshSizes
+from embedding.plan.decisions import Decision
+from embedding.plan.field import ROOM
+from embedding.scene import Body, BoxBody, CylinderBody, HalfSpace, Scene, SphereBody
+
+FAR_RADIUS = 4.0
+SHELL_SIZE = {"3d": 0.4, "axisymmetric": 0.2, "plane-strain": 0.2}
+FLAT_SIZE = 0.35
+AT_RIMS = {"3d": 0.25, "axisymmetric": 0.05, "plane-strain": 0.05}
+"""Elements along a rim, around which the field is singular, over those on the rest of the shell."""
+
+
+def choose_sizes(scene: Scene, reduction: str, *, meshed: bool) -> tuple[MeshSizes, tuple[Decision, ...]]:
+    """The mesh of ``scene`` in ``reduction``; ``meshed`` says whether the space around the shell is."""
+    chosen, size = scene.discretisation, scene.shell.shape.size
+    flat = reduction == "3d" and not meshed and scene.shell.shape.curvature_radius is None
+    default = (FLAT_SIZE if flat else SHELL_SIZE[reduction]) * min(1.0, 2 * scene.shell.shape.narrowest / size)
+    shell = chosen.shell_size / size if chosen.shell_size else default
+    edges = tuple((edge, length / size) for edge, length in chosen.edge_size.items())
+    origin = "stated by the scene" if chosen.shell_size else f"default of {reduction}"
+    decisions = [Decision("mesh on the shell", f"{shell:.3g} x size", origin)]
+    if scene.ambient is None or not meshed:
+        return MeshSizes(shell, shell, 0.0, chosen.grading, chosen.order, edges), tuple(decisions)
+    if not scene.shell.shape.closed and not edges:
+        edges, decision = _at_rims(scene, reduction, shell)
+        decisions.append(decision)
+    box, radius, decision = _end(scene)
+    decisions.append(decision)
+    far = chosen.ambient_size / size if chosen.ambient_size else radius / 2
+    origin = "stated by the scene" if chosen.ambient_size else "half the ambient's radius"
+    decisions.append(Decision("mesh far away", f"{far:.3g} x size", f"{origin}; grading {chosen.grading:g}"))
+    bodies = tuple(_meshed(body, size) for body in scene.ambient.bodies)
+    sizes = MeshSizes(shell, far, radius, chosen.grading, chosen.order, edges, box=box, bodies=bodies)
+    return sizes, tuple(decisions)
+
+
+def _at_rims(scene: Scene, reduction: str, shell: float) -> tuple[tuple[tuple[str, float], ...], Decision]:
+    """Smaller elements along all edges, that leave room for opened faces."""
+    thickness = scene.shell.thickest / scene.shell.shape.size
+    size = min(shell, max(AT_RIMS[reduction] * shell, 1.2 * ROOM * thickness))
+    reason = "the field is singular at a rim; no smaller than three thicknesses, for the faces that meet there"
+    edges = tuple((edge, size) for edge in scene.shell.shape.edges)
+    return edges, Decision("mesh at rims", f"{size:.3g} x size", reason)
+
+
+def _end(scene: Scene) -> tuple[tuple[float, ...] | None, float, Decision]:
+    """The box or ball in which the meshed space ends."""
+    size, ambient = scene.shell.shape.size, scene.ambient
+    stated = ambient.radius if ambient is not None else None
+    if ambient is not None and ambient.box is not None:
+        box = tuple(edge / size for edge in ambient.box)
+        shown = " x ".join(f"{edge:.3g}" for edge in box)
+        return box, math.hypot(*box), Decision("ambient", f"box of half edges {shown}", "stated by the scene")
+    radius = stated / size if stated else FAR_RADIUS
+    origin = "stated by the scene" if stated else f"default, {FAR_RADIUS:g} times the shell"
+    return None, radius, Decision("ambient radius", f"{radius:.3g} x size", origin)
+
+
+def _meshed(body: Body, size: float) -> MeshedBody:
+    solid = not body.is_conductor
+
+    def scaled(vector: tuple[float, float, float]) -> tuple[float, float, float]:
+        x, y, z = (c / size for c in vector)
+        return x, y, z
+
+    match body:
+        case SphereBody():
+            return MeshedBody("sphere", scaled(body.centre), radius=body.radius / size, solid=solid)
+        case CylinderBody():
+            radius, length = body.radius / size, body.length / size
+            return MeshedBody("cylinder", scaled(body.centre), radius=radius, length=length, solid=solid)
+        case BoxBody():
+            return MeshedBody("box", scaled(body.centre), size=scaled(body.size), solid=solid)
+        case HalfSpace():
+            return MeshedBody("half-space", level=body.level / size, solid=solid)
