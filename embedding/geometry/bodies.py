@@ -48,5 +48,5 @@ class Body:
             return WorkPlane(Axes((x, y, 0), n=(0, 0, 1), h=(1, 0, 0))).Circle(self.radius).Face()
         if self.kind == "half-space":
             return MoveTo(-reach, -reach).Rectangle(2 * reach, reach + self.level).Face()
-        width, height = (2 * self.radius, self.length) if self.kind == "cylinder" else self.size[:2]
+        width, height = (2 * self.radius, self.length) if self.kind == "cylinder" else (self.size[0], self.size[axis])
         return MoveTo(x - width / 2, y - height / 2).Rectangle(width, height).Face()

@@ -126,7 +126,7 @@ class _Space:
             parts.append(self._filled(self._without(exterior, bodies) * window, "beyond"))
         for number, (body, shape) in enumerate(zip(self._sizes.bodies, bodies, strict=True)):
             if body.solid:
-                parts.append(self._filled(shape * window, f"magnet{number}"))
+                parts.append(self._filled(shape * inner * window, f"magnet{number}"))
         return parts
 
     def _check(self, bodies: list[Any], inner: Any) -> None:
@@ -159,10 +159,11 @@ class _Space:
 
     def _box(self, name: str) -> Any:
         box = self._sizes.box or ()
+        across, along = box[0], box[2 if self._reduction.name == "axisymmetric" else 1]
         if self._reduction.dimension == 3:
             shape = Box(Pnt(*(-b for b in box)), Pnt(*box))
         else:
-            shape = MoveTo(-box[0], -box[1]).Rectangle(2 * box[0], 2 * box[1]).Face()
+            shape = MoveTo(-across, -along).Rectangle(2 * across, 2 * along).Face()
         self._name(shape, name)
         return shape
 
