@@ -7,10 +7,10 @@ import math
 from embedding.geometry.bodies import Body as MeshedBody
 from embedding.geometry.domain import MeshSizes
 from embedding.plan.decisions import Decision
+from embedding.plan.far_field import choose_far_field
 from embedding.plan.field import ROOM
-from embedding.scene import Body, BoxBody, CylinderBody, HalfSpace, Scene, SphereBody
+from embedding.scene import Ambient, Body, BoxBody, CylinderBody, HalfSpace, Scene, SphereBody
 
-FAR_RADIUS = 4.0
 SHELL_SIZE = {"3d": 0.4, "axisymmetric": 0.2, "plane-strain": 0.2}
 FLAT_SIZE = 0.35
 AT_RIMS = {"3d": 0.25, "axisymmetric": 0.05, "plane-strain": 0.05}
@@ -31,13 +31,13 @@ def choose_sizes(scene: Scene, reduction: str, *, meshed: bool) -> tuple[MeshSiz
     if not scene.shell.shape.closed and not edges:
         edges, decision = _at_rims(scene, reduction, shell)
         decisions.append(decision)
-    box, radius, decision = _end(scene)
-    decisions.append(decision)
+    box, radius, beyond, end = _end(scene, scene.ambient)
+    decisions += end
     far = chosen.ambient_size / size if chosen.ambient_size else radius / 2
     origin = "stated by the scene" if chosen.ambient_size else "half the ambient's radius"
     decisions.append(Decision("mesh far away", f"{far:.3g} x size", f"{origin}; grading {chosen.grading:g}"))
     bodies = tuple(_meshed(body, size) for body in scene.ambient.bodies)
-    sizes = MeshSizes(shell, far, radius, chosen.grading, chosen.order, edges, box=box, bodies=bodies)
+    sizes = MeshSizes(shell, far, radius, chosen.grading, chosen.order, edges, beyond=beyond, box=box, bodies=bodies)
     return sizes, tuple(decisions)
 
 
@@ -50,17 +50,17 @@ def _at_rims(scene: Scene, reduction: str, shell: float) -> tuple[tuple[tuple[st
     return edges, Decision("mesh at rims", f"{size:.3g} x size", reason)
 
 
-def _end(scene: Scene) -> tuple[tuple[float, ...] | None, float, Decision]:
-    """The box or ball in which the meshed space ends."""
-    size, ambient = scene.shell.shape.size, scene.ambient
-    stated = ambient.radius if ambient is not None else None
-    if ambient is not None and ambient.box is not None:
-        box = tuple(edge / size for edge in ambient.box)
-        shown = " x ".join(f"{edge:.3g}" for edge in box)
-        return box, math.hypot(*box), Decision("ambient", f"box of half edges {shown}", "stated by the scene")
-    radius = stated / size if stated else FAR_RADIUS
-    origin = "stated by the scene" if stated else f"default, {FAR_RADIUS:g} times the shell"
-    return None, radius, Decision("ambient radius", f"{radius:.3g} x size", origin)
+def _end(
+    scene: Scene, ambient: Ambient
+) -> tuple[tuple[float, ...] | None, float, bool, tuple[Decision, ...]]:
+    """The box, or the radius of the ball, in which the meshed space ends; and whether a mapped region follows."""
+    if ambient.box is None:
+        end = choose_far_field(scene, ambient)
+        return None, end.radius, end.beyond, end.decisions
+    box = tuple(edge / scene.shell.shape.size for edge in ambient.box)
+    shown = " x ".join(f"{edge:.3g}" for edge in box)
+    reason = "stated by the scene; potential prescribed on it"
+    return box, math.hypot(*box), False, (Decision("ambient", f"box of half edges {shown}", reason),)
 
 
 def _meshed(body: Body, size: float) -> MeshedBody:

@@ -29,7 +29,7 @@ def explain(scene: Scene) -> Plan:
     opened: tuple[str, ...] = ()
     if extent == "surroundings":
         opened, faces = choose_interface(scene, _rim_size(scene, sizes))
-        field = (*describe_potential(scene), _far_field(scene), faces)
+        field = (*describe_potential(scene), faces)
     theory = choose_theory(scene)
     bending = theory.choice == "bending"
     points = _loaded_points(scene, reduction) if bending else ()
@@ -76,12 +76,6 @@ def _rigid(scene: Scene, reduction: Reduction) -> tuple[Decision, ...]:
         return ()
     reason = "free rigid motions are held by a uniform dead force; its size is recorded (held_force)"
     return (Decision("rigid motion", "held", reason),)
-
-
-def _far_field(scene: Scene) -> Decision:
-    if scene.ambient is not None and scene.ambient.outer == "grounded":
-        return Decision("far field", "grounded", "potential prescribed on the outer boundary, as the scene states")
-    return Decision("far field", "second-order Robin", "exact for net charge and dipole; higher multipoles decay")
 
 
 def _rim_size(scene: Scene, sizes: MeshSizes) -> float | None:

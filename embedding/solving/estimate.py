@@ -48,7 +48,7 @@ def estimate_error(problem: Problem, target: Target, steps: Sequence[StepRecord]
     response = 1.0 if controlled or bent else _response(steps)
     slenderness = _slenderness(problem, steps[-1].scalars)
     parts = _bending_parts(problem, steps[-1].scalars) if bent else {"shell theory": response * THEORY * slenderness**2}
-    if problem.system.physics.field is not None and not problem.plan.opened:
+    if problem.system.motions and not problem.plan.opened:
         parts["closed faces"] = response * CLOSED_FACES * slenderness
     order = problem.domain.sizes.order
     change = _enriched_change(problem, target, quantity)
@@ -136,9 +136,10 @@ class Enriched(Problem):
         richer, present = self.system.unknowns.field(name), problem.system.unknowns.field(name)
         if name in ("pressure", "axial"):
             richer.vec[0] = present.vec[0]
-        elif name in ("u", "y_t", "y_b", "tau_t", "tau_b"):
+        elif name in ("u", "y_t", "y_b", "o_t", "o_b", "tau_t", "tau_b"):
             richer.Set(present, BND, definedon=self.domain.shell)
-            richer.vec.FV().NumPy()[~self.system.unknowns.trace.free] = 0.0
+            unknowns = self.system.unknowns
+            richer.vec.FV().NumPy()[~(unknowns.trace.free if name == "u" else unknowns.face_free)] = 0.0
         elif name == "moment":
             richer.Set(present, BND, definedon=self.domain.shell)
         elif name == "rotation":
