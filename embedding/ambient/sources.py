@@ -48,9 +48,9 @@ class Electrodes:
 
     @property
     def one_conductor(self) -> bool:
-        """Are both faces at one potential?"""
-        if self.joined:
-            return True
+        """Are both faces at one potential all over the shell?"""
+        if self.joined or self.where:
+            return self.joined
         voltages = [source.voltage if source is not None else None for source in (self.top, self.bottom)]
         return voltages[0] is not None and voltages[0] == voltages[1]
 

@@ -20,7 +20,7 @@ def choose_coupling(scene: Scene) -> Decision | None:
     """The rung of a scene with a field, None without one.
 
     Raises:
-        SceneError: a rung that is not modelled, or a stage that needs the joint tangent.
+        SceneError: a stage needs the joint tangent.
     """
     if scene.ambient is None:
         return None
@@ -34,9 +34,6 @@ def choose_coupling(scene: Scene) -> Decision | None:
 
 
 def _refused(scene: Scene, rung: str) -> Iterator[Problem]:
-    if rung not in REASONS:
-        reason = f"not modelled by this version: use one of {', '.join(REASONS)}"
-        yield Problem("model.coupling", f'"{rung}" is not allowed: {reason}')
     if rung in ("joint", "unperturbed"):
         return
     for number, stage in enumerate(scene.path):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from embedding.plan.decisions import Decision, Extent
 from embedding.scene import Scene
+from embedding.scene.checks_electrodes import inside_only, one_conductor
 
 CLOSED_FACES = 1.6
 """A field on faces at the mid-surface is off by this many thicknesses over size; measured on exact thick spheres."""
@@ -18,39 +19,17 @@ def choose_extent(scene: Scene) -> tuple[Extent, tuple[Decision, ...]]:
     if scene.model.coupling == "unperturbed":
         reason = "pinned by the scene; the shell is taken not to change the applied field: nothing around it is meshed"
         return "given", (Decision("field", "the applied field alone", reason),)
-    stated = scene.model.surroundings
-    if stated == "none" or (stated == "auto" and _film(scene)):
+    if inside_only(scene):
         share = scene.shell.thickest / scene.shell.shape.size
         reason = f"electrodes on both faces: what lies around is about {share:.1e} of it and left out"
-        if stated == "none":
-            reason = f"pinned by the scene; {reason}"
-        return "inside", (Decision("field", "between the electrodes alone", reason),)
+        pinned = "pinned by the scene; " if scene.model.surroundings == "none" else ""
+        return "inside", (Decision("field", "between the electrodes alone", pinned + reason),)
     return "surroundings", ()
-
-
-def _film(scene: Scene) -> bool:
-    """Is this an open shell between two electrodes that nothing else acts on? The field around their rims is then a
-    small part of that between them, and infinite where electrodes of no thickness end at the same place."""
-    faces, ambient = scene.faces, scene.ambient
-    if ambient is None or scene.shell.shape.closed or faces.top is None or faces.bottom is None or conductor(scene):
-        return False
-    applied = ambient.applied_field
-    alone = isinstance(applied, tuple) and not any(applied) and not ambient.bodies and not ambient.line_currents
-    return alone and not faces.top.where
-
-
-def conductor(scene: Scene) -> bool:
-    """Is the shell one conductor, its faces electrodes at one potential?"""
-    faces = scene.faces
-    if faces.both is not None:
-        return True
-    top, bottom = faces.top, faces.bottom
-    return top is not None and bottom is not None and top.voltage is not None and top.voltage == bottom.voltage
 
 
 def describe_potential(scene: Scene) -> tuple[Decision, ...]:
     """How the potential is written, and that the field moves with the shell."""
-    if conductor(scene):
+    if one_conductor(scene):
         jump = Decision("potential", "continuous", "the shell is one conductor: no jump to solve for")
     else:
         jump = Decision("potential", "with a jump", "the faces may differ: the jump is an unknown on the shell")
@@ -66,13 +45,13 @@ def choose_interface(scene: Scene, rim_size: float | None) -> tuple[tuple[str, .
     if scene.model.interface == "closed":
         return (), Decision("interface", "closed", f"pinned by the scene; {off}")
     cramped = rim_size is not None and rim_size < ROOM * ratio
-    if scene.model.interface == "auto" and cramped and conductor(scene):
+    if scene.model.interface == "auto" and cramped and one_conductor(scene):
         reason = f"elements at the rim are smaller than {ROOM:g} thicknesses, and an opened face would turn them over"
         return (), Decision("interface", "closed", f"{reason}; {off}")
     reason = "faces at their true places: second order in the thickness"
     if rim_size is not None:
         return ("t", "b"), Decision("interface", "opened", f"{reason}; they meet in the rim, one element away from it")
-    if scene.model.interface == "auto" and conductor(scene):
+    if scene.model.interface == "auto" and one_conductor(scene):
         reason += "; the bottom face bounds a space without a field, where its place is not felt"
         return ("t",), Decision("interface", "opened at the top", reason)
     return ("t", "b"), Decision("interface", "opened", reason)

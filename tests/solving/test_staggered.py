@@ -214,7 +214,6 @@ def test_the_plan_says_the_rung(rung: str) -> None:
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        (("model.coupling=unperturbed",), 'model.coupling: "unperturbed" is not allowed: not modelled'),
         ((TURNS, "path=[{control = 'arc-length'}]"), "path.0.control: not allowed: with model.coupling"),
         ((ONCE, "path=[{until = {where = [0, 0, 0.02], axis = 'z', value = 1e-3}}]"), "path.0.until: not allowed"),
     ],
