@@ -52,26 +52,23 @@ class LinearSolverError(EmbeddingError):
     """The linear system could not be solved: singular, or not finite."""
 
 
-class DirectSolver:
-    """Factors a matrix for its free unknowns and solves with it again and again.
+class LinearSolver:
+    """Solves with the matrix of an assembled form on its free unknowns, again and again.
 
     ``mask`` marks the free unknowns, ``kept`` those of them that are in the matrix. Unknowns that a form has condensed
     out are eliminated element by element before and recovered after; they are always free.
     """
 
-    def __init__(self, free: Any, *, symmetric: bool, condensed: Mask | None = None) -> None:
+    def __init__(self, free: Any, *, condensed: Mask | None = None) -> None:
         self.mask = as_mask(free)
         self._condensed = condensed is not None
         self.kept = self.mask if condensed is None else self.mask & ~condensed
         self.free = free if condensed is None else as_bits(self.kept)
-        self._methods = ["sparsecholesky", "umfpack"] if symmetric else ["umfpack"]
         self._form: Any = None
-        self._inverse: Any = None
-        self._method = ""
 
     def factor(self, form: Any) -> None:
         """Take the assembled matrix of ``form``; it is factored when the first right side comes."""
-        self._form, self._inverse, self._method = form, None, ""
+        self._form = form
 
     def matrix(self) -> sparse.csc_array:
         """The matrix of the last :meth:`factor` on the kept unknowns."""
@@ -85,7 +82,7 @@ class DirectSolver:
         """The update vector for ``right_side`` (left as it is), zero on the unknowns that are not free.
 
         Raises:
-            LinearSolverError: no solver was accurate.
+            LinearSolverError: no solver was accurate; the message says by how much.
         """
         load = right_side.CreateVector()
         load.data = right_side
@@ -96,6 +93,32 @@ class DirectSolver:
             update.data += self._form.harmonic_extension * update
             update.data += self._form.inner_solve * load
         return update
+
+    def _kept_part(self, load: Any) -> Any:
+        raise NotImplementedError
+
+    def _backward_stable(self, load: Any, update: Any) -> bool:
+        """Is the residual what rounding of the entries explains?"""
+        matrix, x, b = self.matrix(), update.FV().NumPy()[self.kept], load.FV().NumPy()[self.kept]
+        sizes = abs(matrix) @ np.abs(x)
+        if not np.all(np.isfinite(sizes)) or np.all(np.abs(b) <= SINGULAR * sizes):
+            return False
+        return bool(np.all(np.abs(b - matrix @ x) <= BACKWARD * (sizes + np.abs(b))))
+
+
+class DirectSolver(LinearSolver):
+    """Factors the matrix: the way to solve anything that is not too large."""
+
+    def __init__(self, free: Any, *, symmetric: bool, condensed: Mask | None = None) -> None:
+        super().__init__(free, condensed=condensed)
+        self._methods = ["sparsecholesky", "umfpack"] if symmetric else ["umfpack"]
+        self._inverse: Any = None
+        self._method = ""
+
+    def factor(self, form: Any) -> None:
+        """Take the assembled matrix of ``form``; it is factored when the first right side comes."""
+        super().factor(form)
+        self._inverse, self._method = None, ""
 
     def _kept_part(self, load: Any) -> Any:
         update = load.CreateVector()
@@ -120,14 +143,6 @@ class DirectSolver:
             worst = f"{method}: relative residual {remainder:.1e}"
         self._method = ""
         raise LinearSolverError(f"the linear system could not be solved ({worst})")
-
-    def _backward_stable(self, load: Any, update: Any) -> bool:
-        """Is the residual what rounding of the entries explains?"""
-        matrix, x, b = self.matrix(), update.FV().NumPy()[self.kept], load.FV().NumPy()[self.kept]
-        sizes = abs(matrix) @ np.abs(x)
-        if not np.all(np.isfinite(sizes)) or np.all(np.abs(b) <= SINGULAR * sizes):
-            return False
-        return bool(np.all(np.abs(b - matrix @ x) <= BACKWARD * (sizes + np.abs(b))))
 
     def _refined(self, load: Any, update: Any) -> float:
         """Solve, with one step of iterative refinement if the residual asks for it; returns the residual's norm."""

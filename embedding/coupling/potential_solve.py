@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 from ngsolve import BilinearForm, FESpace, GridFunction, Variation
 
+from embedding.ambient.patches import Cycle
 from embedding.ambient.potential import Conductor
+from embedding.coupling.iterative import Linear, PotentialSolver, iterates
 from embedding.coupling.lagrangian import Lagrangian
 from embedding.coupling.linear import DirectSolver
 from embedding.geometry.spaces import as_bits
@@ -19,9 +21,12 @@ the material is linear one step is all."""
 
 class PotentialSolve:
     """Minimises the field's co-energy, less the charges times their potentials, over phi and jump: definite, and linear
-    unless the material saturates."""
+    unless the material saturates.
 
-    def __init__(self, lagrangian: Lagrangian) -> None:
+    ``linear`` says how it is solved; ``iterative`` is that solver, None where the matrix is factored.
+    """
+
+    def __init__(self, lagrangian: Lagrangian, linear: Linear = "auto") -> None:
         unknowns, field = lagrangian.unknowns, lagrangian.physics.field
         if unknowns.potential is None or field is None:
             raise RuntimeError("this scene has no potential to solve for")
@@ -37,7 +42,10 @@ class PotentialSolve:
         for term in lagrangian.field_energies(values):
             self.form += Variation(term).Compile()
         self._free = np.concatenate([self._spaces.free[name] for name in self._names])
-        self._solver = DirectSolver(as_bits(self._free), symmetric=True)
+        # Without a potential around the shell there is nothing to iterate on.
+        large = "phi" in self._names and iterates(linear, int(self._free.sum()))
+        self.iterative = PotentialSolver(space, self._free) if large else None
+        self._solver = self.iterative or DirectSolver(as_bits(self._free), symmetric=True)
         self._state = GridFunction(space)
         sizes = [component.vec.size for component in self._state.components]
         self._starts = dict(zip(self._names, np.concatenate([[0], np.cumsum(sizes)[:-1]]).tolist(), strict=True))
@@ -90,6 +98,19 @@ class PotentialSolve:
                 break
         for name, component in zip(self._names, state.components, strict=True):
             self._unknowns.field(name).vec.data = component.vec
+
+    def cycle(self, *, renewed: bool) -> Cycle:
+        """The preconditioner of the last solve, or one ``renewed`` for the present state.
+
+        Raises:
+            LinearSolverError: the matrix is singular.
+        """
+        if self.iterative is None:
+            raise RuntimeError("this potential is solved directly")
+        if renewed or not self.iterative.ready:
+            self.form.AssembleLinearization(self._gather().vec)
+            self.iterative.factor(self.form)
+        return self.iterative.cycle
 
     def _small(self, step: Any, residual: Any, state: GridFunction) -> bool:
         work = float(np.dot(step.FV().NumPy()[self._free], residual.FV().NumPy()[self._free]))

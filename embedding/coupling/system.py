@@ -13,8 +13,9 @@ from ngsolve import BND, GridFunction, InnerProduct
 from embedding.ambient.motion import AmbientMotion
 from embedding.coupling.elementwise import form_of
 from embedding.coupling.following import Following
+from embedding.coupling.iterative import JointSolver, Linear, far_unknowns
 from embedding.coupling.lagrangian import OFFSET, Factors, Lagrangian
-from embedding.coupling.linear import DirectSolver
+from embedding.coupling.linear import DirectSolver, LinearSolver
 from embedding.coupling.physics import Physics
 from embedding.coupling.potential_solve import PotentialSolve
 from embedding.coupling.resultants import BodyResultants, ShellResultants
@@ -35,14 +36,14 @@ class System:
     All quantities are dimensionless. The state is ``unknowns.state`` plus the ambient's interior motion.
     """
 
-    def __init__(self, domain: Domain, physics: Physics) -> None:
+    def __init__(self, domain: Domain, physics: Physics, linear: Linear = "auto") -> None:
         self.domain, self.physics = domain, physics
         self.factors = Factors()
         self.unknowns = Unknowns(domain, physics)
         self.motions = self._ambient_motions()
         self.lagrangian = Lagrangian(domain, physics, self.unknowns, self.motions, self.factors)
         self.form = form_of(self.lagrangian)
-        self.potential = PotentialSolve(self.lagrangian) if self.unknowns.potential is not None else None
+        self.potential = PotentialSolve(self.lagrangian, linear) if self.unknowns.potential is not None else None
         self.tractions = {face: FaceTractions(self.lagrangian, face) for face in self.unknowns.faces}
         self.resultants = self._resultants()
         self.following: Following | None = None
@@ -55,7 +56,7 @@ class System:
         self._displaced = displaced(domain, self.unknowns.trace, physics.prescribed)
         self.place_faces()
         self._held: tuple[str, ...] = ()
-        self._solver = self._direct_solver(())
+        self._solver = self._linear_solver(())
         self._measured = self._linearised = self._displacement
         self.residual()  # NGSolve differentiates an interpolation wrongly until it has been evaluated once
 
@@ -111,12 +112,17 @@ class System:
                 self.factors.volume.Set(volume)
         if held != self._held:
             self._held = held
-            self._solver = self._direct_solver(held)
+            self._solver = self._linear_solver(held)
         if self.potential is not None:
             self.potential.prescribe(field)
 
-    def _direct_solver(self, held: tuple[str, ...]) -> DirectSolver:
-        return DirectSolver(self.unknowns.free(held), symmetric=self.symmetric, condensed=self.unknowns.condensed)
+    def _linear_solver(self, held: tuple[str, ...]) -> LinearSolver:
+        free, potential = self.unknowns.free(held), self.potential
+        if potential is None or potential.iterative is None:
+            return DirectSolver(free, symmetric=self.symmetric, condensed=self.unknowns.condensed)
+        far = far_unknowns(self.unknowns)
+        start = self.unknowns.range("phi").start
+        return JointSolver(free, symmetric=self.symmetric, far=far, start=start, cycle=potential.cycle)
 
     @property
     def free_count(self) -> int:

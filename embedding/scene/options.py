@@ -65,7 +65,8 @@ class Discretisation(Part):
 class Solver(Part):
     """Newton's method: tolerance, iterations per step, smallest fraction of a planned step, threads.
 
-    ``acceleration`` is that of field and shell solved in turn (model.coupling = "staggered").
+    ``acceleration`` is that of field and shell solved in turn (model.coupling = "staggered"), ``linear`` how the space
+    around the shell is solved: its matrix factored, or by iteration ("auto": where it is large).
 
     A stage that follows a path is given up after ``max_steps`` steps, or when it has gone ``max_arc`` times the size of
     the shape (root-mean-square displacement, added up).
@@ -77,4 +78,5 @@ class Solver(Part):
     max_steps: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=100_000))] = 500
     max_arc: Annotated[float, BeforeValidator(Number(above=0.0, at_most=1e6))] = 10.0
     acceleration: Literal["iqn-ils", "aitken", "none"] = "iqn-ils"
+    linear: Literal["auto", "direct", "iterative"] = "auto"
     threads: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=1024))] = 1

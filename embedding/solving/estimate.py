@@ -124,7 +124,8 @@ class Enriched(Problem):
         self.reduction = problem.reduction
         sizes = replace(problem.domain.sizes, order=problem.domain.sizes.order + 1)
         self.domain = replace(problem.domain, sizes=sizes)
-        self.system = System(self.domain, physics_of(self.scene, self.plan, self.scales, self.domain))
+        physics = physics_of(self.scene, self.plan, self.scales, self.domain)
+        self.system = System(self.domain, physics, self.scene.solver.linear)
         for name in self.system.unknowns.names:
             self._carry(name, problem)
         counted, present = self.system.unknowns.bending, problem.system.unknowns.bending

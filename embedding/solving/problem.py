@@ -47,7 +47,7 @@ class Problem:
         self.scene, self.plan, self.scales = scene, plan, Scales.of(scene)
         self.reduction: Reduction = plan.reduction
         self.domain: Domain = build(scene.shell.shape, plan.reduction, sizes or plan.sizes)
-        self.system = System(self.domain, physics_of(scene, plan, self.scales, self.domain))
+        self.system = System(self.domain, physics_of(scene, plan, self.scales, self.domain), scene.solver.linear)
 
     @property
     def mesh(self) -> Any:

@@ -1,0 +1,169 @@
+"""Iterative solvers for large ambients: conjugate gradients for the potential, GMRES for the joint system.
+
+In the joint system the ambient's unknowns are many and mutually definite, the others few and indefinite, and the two
+meet only in the elements that touch the shell. So all unknowns in those elements (the shell's, the faces', the jump,
+the potential near the shell) are eliminated directly: a factorisation along a surface. What remains is a system for the
+potential far from the shell, whose inverse without coupling is a part of the inverse of the potential's own matrix, and
+the cycle of that matrix preconditions it. Source: theory page, "Large ambients".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from embedding.ambient.krylov import Ending, conjugate_gradients, gmres
+from embedding.ambient.patches import Cycle, VertexPatches
+from embedding.coupling.linear import ACCURATE, DirectSolver, LinearSolver, LinearSolverError
+from embedding.coupling.unknowns import FACES, SIDES, Unknowns
+from embedding.geometry.spaces import Mask, as_bits, scalar_mask
+
+Array = npt.NDArray[np.float64]
+Linear = Literal["auto", "direct", "iterative"]
+LARGE = 60_000
+"""Free unknowns of the potential from where on it is solved by iteration, by measurement: docs/benchmarks."""
+POTENTIAL_TOLERANCE, JOINT_TOLERANCE = 1e-10, 1e-9
+MOST_ITERATIONS, MOST_JOINT = 200, 100
+WORN = 40
+"""Iterations of the joint system after which a preconditioner from an earlier state is replaced."""
+
+
+def iterates(linear: Linear, unknowns: int) -> bool:
+    """Is a potential with so many free ``unknowns`` solved by iteration?"""
+    return linear == "iterative" or (linear == "auto" and unknowns > LARGE)
+
+
+def far_unknowns(unknowns: Unknowns) -> Mask:
+    """The unknowns of the potential that meet no other: those in elements that do not touch the shell."""
+    domain, phi = unknowns.domain, unknowns.field("phi").space
+    touching = "|".join(domain.near(SIDES[face]) for face in FACES)
+    far = np.zeros(unknowns.space.ndof, bool)
+    far[unknowns.range("phi")] = ~scalar_mask(phi, domain.mesh.Materials(touching))
+    return far
+
+
+class PotentialSolver(LinearSolver):
+    """Conjugate gradients for a definite matrix on a ``space``; ``iterations`` counts those of every solve."""
+
+    def __init__(self, space: Any, free: Mask) -> None:
+        super().__init__(as_bits(free))
+        self._space = space
+        self._patches: VertexPatches | None = None
+        self._cycle: Cycle | None = None
+        self.iterations: list[int] = []
+
+    def factor(self, form: Any) -> None:
+        """Take the assembled matrix of ``form``."""
+        super().factor(form)
+        self._cycle = None
+
+    @property
+    def ready(self) -> bool:
+        """Is there a matrix?"""
+        return self._form is not None
+
+    @property
+    def cycle(self) -> Cycle:
+        """The preconditioner of the last :meth:`factor`."""
+        if self._patches is None:
+            self._patches = VertexPatches(self._space, self.mask)
+        if self._cycle is None:
+            try:
+                self._cycle = self._patches.cycle(self._form.mat)
+            except Exception as error:  # NGSolve raises its own untyped exceptions for singular blocks
+                raise LinearSolverError(f"the linear system could not be solved (singular: {error})") from error
+        return self._cycle
+
+    def _kept_part(self, load: Any) -> Any:
+        update = load.CreateVector()
+        ending = conjugate_gradients(self.cycle, load, update, POTENTIAL_TOLERANCE, MOST_ITERATIONS)
+        self.iterations.append(ending.iterations)
+        # Rounding may end it before: what cannot be told from the solution in the energy is one.
+        if not ending.remainder < ACCURATE:
+            raise LinearSolverError(_failure("conjugate gradients", ending))
+        return update
+
+
+class JointSolver(LinearSolver):
+    """Direct near the shell, GMRES for the potential ``far`` from it; ``iterations`` counts those of every solve.
+
+    ``start`` is where the potential's unknowns (phi, then the jump) begin in the joint system, and ``cycle`` returns
+    the preconditioner of their own matrix: as it is at hand, or renewed for the present state.
+    """
+
+    def __init__(self, free: Any, *, symmetric: bool, far: Mask, start: int, cycle: Callable[..., Cycle]) -> None:
+        super().__init__(free)
+        self._far = np.flatnonzero(far & self.mask)
+        self._near = DirectSolver(as_bits(self.mask & ~far), symmetric=symmetric)
+        self._in_potential, self._cycle = self._far - start, cycle
+        self.iterations: list[int] = []
+
+    def factor(self, form: Any) -> None:
+        """Take the assembled matrix of ``form``."""
+        super().factor(form)
+        self._near.factor(form)
+
+    def _kept_part(self, load: Any) -> Any:
+        update, rest = load.CreateVector(), load.CreateVector()
+        update[:] = 0.0
+        size = float(np.linalg.norm(load.FV().NumPy()[self.kept]))
+        if size == 0.0:
+            return update
+        rest.data = load
+        for _ in range(2):  # once more if rounding in the elimination asks for it
+            update.data += self._eliminated(rest)
+            rest.data = load - self._form.mat * update
+            remainder = float(np.linalg.norm(rest.FV().NumPy()[self.kept])) / size
+            if not remainder > ACCURATE:
+                break
+        if not (remainder < ACCURATE or self._backward_stable(load, update)):
+            raise LinearSolverError(_failure("GMRES", Ending(self.iterations[-1], remainder)))
+        return update
+
+    def _eliminated(self, load: Any) -> Any:
+        """The solution for ``load``, by elimination of what is near the shell."""
+        near, image = self._near.solve(load), load.CreateVector()
+        image.data = load - self._form.mat * near
+        right_side = image.FV().NumPy()[self._far]
+        far = load.CreateVector()
+        far[:] = 0.0
+        far.FV().NumPy()[self._far] = self._far_part(right_side, far)
+        image.data = load - self._form.mat * far
+        far.data += self._near.solve(image)
+        return far
+
+    def _far_part(self, right_side: Array, work: Any) -> Array:
+        image = work.CreateVector()
+
+        def operator(values: Array) -> Array:
+            work[:] = 0.0
+            work.FV().NumPy()[self._far] = values
+            image.data = self._form.mat * work
+            work.data = self._near.solve(image)
+            rows = image.FV().NumPy()[self._far]
+            image.data = self._form.mat * work
+            return np.asarray(rows - image.FV().NumPy()[self._far])
+
+        for renewed in (False, True):
+            cycle = self._cycle(renewed=renewed)
+            inner, outer = cycle.matrix.CreateColVector(), cycle.matrix.CreateColVector()
+
+            def better(values: Array, cycle: Cycle = cycle, inner: Any = inner, outer: Any = outer) -> Array:
+                inner[:] = 0.0
+                inner.FV().NumPy()[self._in_potential] = values
+                cycle.apply(inner, outer)
+                return np.asarray(-outer.FV().NumPy()[self._in_potential])
+
+            found, ending = gmres(operator, better, right_side, JOINT_TOLERANCE, MOST_JOINT if renewed else WORN)
+            self.iterations.append(ending.iterations)
+            if ending.remainder <= JOINT_TOLERANCE:
+                return found
+        raise LinearSolverError(_failure("GMRES", ending))
+
+
+def _failure(method: str, ending: Ending) -> str:
+    count, remainder = ending.iterations, ending.remainder
+    return f"the linear system could not be solved ({method}: residual {remainder:.1e} after {count} iterations)"
