@@ -29,7 +29,7 @@ SHIFT = 1e-13
 SMALL = 1000
 """Rows of a matrix whose eigenvalues may be computed."""
 
-MOST = 60_000
+MOST = 20_000
 """Unknowns of a coupled problem up to which modes are counted: in three dimensions one count costs two or three
 steps of Newton's method, and beyond this direct elimination is too expensive altogether."""
 
