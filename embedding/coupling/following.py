@@ -29,12 +29,12 @@ class Following:
             self._form += Variation(-1 * term).Compile()
         self._forces = motion.w.vec.CreateVector()
 
-    def add_to(self, residual: Any) -> None:
-        """Add the rows of the faces' motions to a ``residual`` of the joint system."""
+    def add_to(self, residual: Any, scale: float = 1.0) -> None:
+        """Add the rows of the faces' motions to a ``residual`` of the joint system; ``scale`` -1 gives forces."""
         self._form.Apply(self._motion.w.vec, self._forces)
         rows = residual.FV().NumPy()
         by_side = self._extension.transposed(self._forces)
         for face in self._unknowns.faces:
             names = ["u", *([self._unknowns.moved_by(face)] if face in self._unknowns.opened else [])]
             for name in names:
-                rows[self._unknowns.range(name)] += by_side[SIDES[face]]
+                rows[self._unknowns.range(name)] += scale * by_side[SIDES[face]]

@@ -16,6 +16,7 @@ import numpy.typing as npt
 from ngsolve import BND, CF, BilinearForm, Compress, Cross, Grad, GridFunction, Variation, VectorH1
 
 from embedding.coupling.field import FieldEnergies, Moved
+from embedding.coupling.following import Following
 from embedding.coupling.lagrangian import Lagrangian
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits, as_mask
@@ -25,10 +26,13 @@ Turn = Callable[[Any], Any]
 
 
 class ShellResultants:
-    """Force and torque about the origin that the field exerts on the whole shell."""
+    """Force and torque about the origin that the field exerts on the whole shell.
 
-    def __init__(self, lagrangian: Lagrangian) -> None:
-        self._unknowns, self._domain = lagrangian.unknowns, lagrangian.domain
+    Of an open shell with an interior that follows, as in its equilibrium: at a rim that is the far better derivative.
+    """
+
+    def __init__(self, lagrangian: Lagrangian, following: Following | None) -> None:
+        self._unknowns, self._domain, self._following = lagrangian.unknowns, lagrangian.domain, following
         self._form = BilinearForm(self._unknowns.space, symmetric=True)
         for term in lagrangian.field_energies(self._unknowns.trial):
             self._form += Variation(term).Compile()
@@ -38,6 +42,8 @@ class ShellResultants:
     def evaluate(self) -> tuple[Array, Array]:
         """Force (d,) and torque (3 in space, 1 in plane strain, none in axisymmetry) of the present state."""
         self._form.Apply(self._unknowns.state.vec, self._rows)
+        if self._following is not None:
+            self._following.add_to(self._rows, -1.0)
         forces = [sum(self._work(name, shift) for name in self._placed) for shift in _translations(self._domain)]
         torques = [sum(self._turned(name, turn) for name in self._moved) for turn in _turns(self._domain)]
         return np.array(forces), np.array(torques)

@@ -45,11 +45,11 @@ class System:
         self.form = form_of(self.lagrangian)
         self.potential = PotentialSolve(self.lagrangian, linear) if self.unknowns.potential is not None else None
         self.tractions = {face: FaceTractions(self.lagrangian, face) for face in self.unknowns.faces}
-        self.resultants = self._resultants()
         self.following: Following | None = None
         if self.lagrangian.field is not None and domain.open and self.motions:
             motion = self.motions[SIDES["t"]]
             self.following = Following(domain, self.lagrangian.field, self.unknowns, motion)
+        self.resultants = self._resultants()
         if "axial" in self.unknowns:
             self.unknowns.field("axial").vec[0] = 1.0
         self._point_forces = point_load_vector(domain, self.unknowns.trace, physics.loads)
@@ -74,7 +74,7 @@ class System:
             return {}
         values = {name: self.unknowns.field(name) for name in self.unknowns.names}
         bodies = range(len(field.field.bodies))
-        return {"shell": ShellResultants(self.lagrangian)} | {
+        return {"shell": ShellResultants(self.lagrangian, self.following)} | {
             f"body{number}": BodyResultants(self.domain, field, values, number) for number in bodies
         }
 
