@@ -1,4 +1,4 @@
-"""The joint form of a bent surface without a field, with its elastic energies assembled many elements at once.
+"""The joint form of a bent surface, with its elastic energies assembled many elements at once.
 
 It stands in for the symbolic form with its moments condensed out: what NGSolve's form of that kind offers to the direct
 solver is offered here, under the same names.
@@ -16,7 +16,8 @@ from ngsolve.la import SparseMatrixd
 
 from embedding.coupling.lagrangian import Lagrangian
 from embedding.coupling.linear import LinearSolverError
-from embedding.shell.batched import ShellElements, Spaces, supported
+from embedding.coupling.unknowns import assembled_in_batches
+from embedding.shell.batched import ShellElements, Spaces
 from embedding.shell.batched.pattern import Pattern, Sum
 from embedding.shell.bending import SurfaceBending
 from embedding.shell.membrane import Membrane
@@ -25,16 +26,12 @@ Array = npt.NDArray[np.float64]
 
 
 def form_of(lagrangian: Lagrangian) -> Any:
-    """The joint form of ``lagrangian``: an :class:`ElementwiseForm` where that is possible, else NGSolve's.
-
-    Moments on edges bring terms in which the unknown moments meet other unknowns; they are left to NGSolve.
-    """
-    bending, membrane, physics = lagrangian.unknowns.bending, lagrangian.membrane, lagrangian.physics
-    if not isinstance(bending, SurfaceBending) or membrane is None:
-        return lagrangian.joint_form()
-    if lagrangian.unknowns.faces or physics.loads.edge_moments or not supported(lagrangian.domain, physics.law):
-        return lagrangian.joint_form()
-    return ElementwiseForm(lagrangian, bending, membrane)
+    """The joint form of ``lagrangian``: an :class:`ElementwiseForm` where that is possible, else NGSolve's."""
+    bending, membrane = lagrangian.unknowns.bending, lagrangian.membrane
+    possible = assembled_in_batches(lagrangian.domain, lagrangian.physics)
+    if possible and isinstance(bending, SurfaceBending) and membrane is not None:
+        return ElementwiseForm(lagrangian, bending, membrane)
+    return lagrangian.joint_form()
 
 
 class ElementwiseForm:

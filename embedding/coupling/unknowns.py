@@ -34,6 +34,7 @@ from embedding.geometry.domain import Domain
 from embedding.geometry.ends import directions, facets_named
 from embedding.geometry.places import Place, unknowns_at
 from embedding.geometry.spaces import Mask, TraceSpace, as_bits, plane_mask
+from embedding.shell.batched import supported
 from embedding.shell.bending import CurveBending, Stiffness, SurfaceBending
 
 FACES = ("t", "b")
@@ -73,7 +74,7 @@ class Unknowns:
             self._parts[name] = (NumberSpace(domain.mesh), np.ones(1, bool))
         self.names = tuple(self._parts)
         self.space = FESpace([space for space, _ in self._parts.values()])
-        self.condensed = self._condense()
+        self.condensed = self._condense(physics)
         self.state = GridFunction(self.space)
         self.trial = dict(zip(self.names, self.space.TrialFunction(), strict=True))
         self.test = dict(zip(self.names, self.space.TestFunction(), strict=True))
@@ -102,13 +103,13 @@ class Unknowns:
         if face in self.opened:
             values += self.field(self.moved_by(face)).vec.FV().NumPy()
 
-    def _condense(self) -> Mask | None:
+    def _condense(self, physics: Physics) -> Mask | None:
         """Mark the unknowns that are eliminated element by element; all others stay in the global system.
 
-        With a field none are: beside volume elements NGSolve does not eliminate what belongs to surface elements.
+        Beside volume elements NGSolve does not eliminate what belongs to surface elements; our own assembly does.
         """
         name = self.bending.condensed if self.bending is not None else None
-        if name is None or self.faces:
+        if name is None or (self.faces and not assembled_in_batches(self.domain, physics)):
             return None
         mask = np.zeros(self.space.ndof, bool)
         mask[self.range(name)] = True
@@ -155,6 +156,14 @@ def _potential(domain: Domain, physics: Physics) -> PotentialSpaces | FilmPotent
         applied=field.applied,
         odd_planes=field.odd_planes,
     )
+
+
+def assembled_in_batches(domain: Domain, physics: Physics) -> bool:
+    """Are the elastic energies of the shell assembled many elements at once?
+
+    Moments on edges bring terms in which the unknown moments meet other unknowns; they are left to NGSolve.
+    """
+    return physics.bending and not physics.loads.edge_moments and supported(domain, physics.law)
 
 
 def _bending(domain: Domain, physics: Physics) -> SurfaceBending | CurveBending | None:
