@@ -94,10 +94,19 @@ class JointSolver(LinearSolver):
     the preconditioner of their own matrix: as it is at hand, or renewed for the present state.
     """
 
-    def __init__(self, free: Any, *, symmetric: bool, far: Mask, start: int, cycle: Callable[..., Cycle]) -> None:
-        super().__init__(free)
+    def __init__(
+        self,
+        free: Any,
+        *,
+        symmetric: bool,
+        far: Mask,
+        start: int,
+        cycle: Callable[..., Cycle],
+        condensed: Mask | None = None,
+    ) -> None:
+        super().__init__(free, condensed=condensed)
         self._far = np.flatnonzero(far & self.mask)
-        self._near = DirectSolver(as_bits(self.mask & ~far), symmetric=symmetric)
+        self._near = DirectSolver(as_bits(self.kept & ~far), symmetric=symmetric)
         self._in_potential, self._cycle = self._far - start, cycle
         self.iterations: list[int] = []
 

@@ -117,12 +117,17 @@ class System:
             self.potential.prescribe(field)
 
     def _linear_solver(self, held: tuple[str, ...]) -> LinearSolver:
-        free, potential = self.unknowns.free(held), self.potential
+        free, potential, condensed = self.unknowns.free(held), self.potential, self.unknowns.condensed
         if potential is None or potential.iterative is None:
-            return DirectSolver(free, symmetric=self.symmetric, condensed=self.unknowns.condensed)
-        far = far_unknowns(self.unknowns)
-        start = self.unknowns.range("phi").start
-        return JointSolver(free, symmetric=self.symmetric, far=far, start=start, cycle=potential.cycle)
+            return DirectSolver(free, symmetric=self.symmetric, condensed=condensed)
+        return JointSolver(
+            free,
+            symmetric=self.symmetric,
+            far=far_unknowns(self.unknowns),
+            start=self.unknowns.range("phi").start,
+            cycle=potential.cycle,
+            condensed=condensed,
+        )
 
     @property
     def free_count(self) -> int:
