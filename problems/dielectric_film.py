@@ -90,5 +90,5 @@ if __name__ == "__main__":
     errors = abs(limit.stretch - known.stretch), abs(limit.load / known.load - 1.0)
     print(f"pull-in at {limit.load / 1e3:.6f} kV, stretch {limit.stretch:.8f}: errors {errors[1]:.1e}, {errors[0]:.1e}")
     charged = run(*by_charge(1.4))
-    print(f"at the charge of 1.4: stretch {charged['stretch'][-1]:.8f}, largest error of the voltage {error(charged):.1e}")
+    print(f"at its charge: stretch {charged['stretch'][-1]:.8f}, largest error of the voltage {error(charged):.1e}")
     print_files(solution)
