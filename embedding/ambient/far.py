@@ -1,6 +1,7 @@
 """The field beyond the outer boundary, out to infinity: a mapped region, or a condition on the boundary.
 
-Beyond the sphere (plane strain: circle) of radius R about the origin the potential is that of the applied field plus a
+Beyond the sphere (plane strain: circle) of radius R about the origin, or about the point below it on the surface of a
+half-space, from which X and r count then, the potential is that of the applied field plus a
 decaying part, phi = -E0 . x + phi', and what lies there has the energy, up to a constant,
 
     1/2 int |grad phi'|^2 dV  +  oint (E0 . n) phi dA.                                                             (*)
@@ -45,37 +46,49 @@ class FarField:
     """What lies beyond the outer boundary of ``domain``, with the uniform ``applied`` field (mesh components).
 
     ``lift`` is minus E0 . X on the outer boundary, carried into the mapped region, to which the unknown potential is
-    continuous: there it is psi + lift. None: Robin's condition.
+    continuous: there it is psi + lift. None: Robin's condition. ``level`` is the potential at infinity, that of a
+    half-space; 0 without one.
     """
 
     domain: Domain
     applied: tuple[float, ...]
     lift: GridFunction | None
+    level: float = 0.0
 
     def terms(self, potential: Any, factor: Any = 1.0, weight: Any = 1.0) -> list[Any]:
         """``weight`` times the energy of the total ``potential`` (trial or grid function), integrals and all; E0 is
         ``applied`` times ``factor``."""
         domain, applied = self.domain, factor * CF(self.applied)
-        reduction, radius = domain.reduction, domain.sizes.radius
+        reduction, radius, place = domain.reduction, domain.sizes.radius, _place(domain)
         if self.lift is None:
-            return [weight * robin_energy(reduction, potential, applied, radius) * domain.surface("outer")]
+            energy = robin_energy(reduction, potential, applied, radius, place, factor * self.level)
+            return [weight * energy * domain.surface("outer")]
         psi, slope = potential - factor * self.lift, Grad(potential) - factor * Grad(self.lift)
-        terms = [weight * beyond_energy(reduction, psi, slope, radius) * beyond(domain)]
+        terms = [weight * beyond_energy(reduction, psi, slope, radius, place=place) * beyond(domain)]
         if any(self.applied):
-            mixed = reduction.measure * InnerProduct(applied, _outwards(reduction)) * potential
+            mixed = reduction.measure * InnerProduct(applied, _outwards(reduction, place)) * potential
             terms.append(weight * mixed * domain.surface("outer"))
         return terms
 
 
-def far_field(domain: Domain, applied: tuple[float, ...], *, infinite: bool) -> FarField:
+def far_field(domain: Domain, applied: tuple[float, ...], *, infinite: bool, level: float = 0.0) -> FarField:
     """The far field of ``domain``; ``infinite`` needs its mapped region ``beyond``."""
     if not infinite:
-        return FarField(domain, applied, None)
+        return FarField(domain, applied, None, level)
     lift = GridFunction(H1(domain.mesh, order=domain.sizes.potential_order, definedon=domain.mesh.Materials("beyond")))
     if any(applied):
         outer = domain.mesh.Boundaries("outer")
-        lift.Set(-InnerProduct(CF(applied), domain.reduction.position), BND, definedon=outer)
-    return FarField(domain, applied, lift)
+        lift.Set(-InnerProduct(CF(applied), _place(domain)), BND, definedon=outer)
+    if level:
+        constant = GridFunction(lift.space)
+        constant.Set(level)
+        lift.vec.data += constant.vec
+    return FarField(domain, applied, lift, level)
+
+
+def _place(domain: Domain) -> Any:
+    """Position from the centre of the outer boundary."""
+    return domain.reduction.position - CF(domain.sizes.centre(domain.mesh.dim))
 
 
 def beyond(domain: Domain) -> Any:
@@ -87,15 +100,18 @@ def beyond(domain: Domain) -> Any:
     return dx("beyond", intrules={element: IntegrationRule(element, 2 * domain.sizes.potential_order)})
 
 
-def beyond_energy(reduction: Reduction, psi: Any, slope: Any, radius: float, outer: float | None = None) -> Any:
+def beyond_energy(
+    reduction: Reduction, psi: Any, slope: Any, radius: float, outer: float | None = None, place: Any = None
+) -> Any:
     """Energy density of the mapped region times the reduction's measure, to be integrated with :func:`beyond`.
 
     ``psi`` is phi' s / R and ``slope`` its gradient on the mesh, shape (d,); the region ends at ``outer``, 1.5 times
-    ``radius``. The module says where the formula comes from.
+    ``radius``; ``place`` is the position from its centre, the origin. The module says where the formula comes from.
     """
     outer = REACH * radius if outer is None else outer
-    r = Norm(reduction.position)
-    along = InnerProduct(reduction.position / r, slope)
+    place = reduction.position if place is None else place
+    r = Norm(place)
+    along = InnerProduct(place / r, slope)
     across = InnerProduct(slope, slope) - along * along  # |g|^2
     squares = (psi - (outer - r) * along) ** 2 + r * r * across
     depth = outer - radius
@@ -103,10 +119,12 @@ def beyond_energy(reduction: Reduction, psi: Any, slope: Any, radius: float, out
     return 0.5 * reduction.measure * k * squares
 
 
-def robin_energy(reduction: Reduction, potential: Any, applied: Any, radius: float) -> Any:
+def robin_energy(
+    reduction: Reduction, potential: Any, applied: Any, radius: float, place: Any = None, level: Any = 0.0
+) -> Any:
     """Energy (*) by a condition on the outer boundary, times the measure, to be integrated over ``outer``.
 
-    With phi' = phi + E0 . X there, the form used,
+    With phi' = phi + E0 . X, less the ``level`` far away, X the ``place`` from the centre (the origin), the form used,
 
         1/2 [ phi'^2 / R + (R / 2) |grad_s phi'|^2 ]          (3D and axisymmetry)
         1/2 [ 2 phi'^2 / 3R + (R / 3) |grad_s phi'|^2 ]       (plane strain: degree l decays with l / R)
@@ -114,16 +132,17 @@ def robin_energy(reduction: Reduction, potential: Any, applied: Any, radius: flo
     is exact for the net charge and the dipole (l = 0, 1; in the plane, where a net charge has no free space, for
     l = 1, 2) and keeps the matrix sparse: the second-order Robin condition of Bayliss, Gunzburger and Turkel.
     """
-    excess = potential + InnerProduct(applied, reduction.position)
+    place = reduction.position if place is None else place
+    excess = potential - level + InnerProduct(applied, place)
     slope = Grad(potential).Trace() if hasattr(Grad(potential), "Trace") else Grad(potential)
-    normal = _outwards(reduction)
+    normal = _outwards(reduction, place)
     slope_of_excess = slope + applied - InnerProduct(applied, normal) * normal
     value, slope_weight = (2 / 3, radius / 3) if reduction.name == "plane-strain" else (1.0, radius / 2)
     decaying = value * excess * excess / radius + slope_weight * InnerProduct(slope_of_excess, slope_of_excess)
     return reduction.measure * (0.5 * decaying + InnerProduct(applied, normal) * potential)
 
 
-def _outwards(reduction: Reduction) -> Any:
+def _outwards(reduction: Reduction, place: Any) -> Any:
     """The mesh's own normal on the outer boundary, so that a uniform field passes without error on straight meshes."""
     normal = reduction.normal
-    return IfPos(InnerProduct(normal, reduction.position), 1.0, -1.0) * normal
+    return IfPos(InnerProduct(normal, place), 1.0, -1.0) * normal

@@ -45,7 +45,7 @@ class FieldEnergies:
         self.measure = domain.reduction.measure
         self._factor, self._kinematics = factor, kinematics
         uniform = field.applied if field.varying is None else tuple(0.0 for _ in field.applied)
-        self._far = far_field(domain, uniform, infinite=field.beyond)
+        self._far = far_field(domain, uniform, infinite=field.beyond, level=_at_infinity(domain, field))
 
     def motion_of(self, face: str, values: dict[str, Any]) -> Moved:
         """What moves the elements beside ``face`` ("t" or "b"), without the ambient's interior motion."""
@@ -184,6 +184,14 @@ class FieldEnergies:
 
     def _given_here(self, values: dict[str, Any]) -> Any:
         return self._given_at(self.domain.reduction.position + _trace(values["u"]))
+
+
+def _at_infinity(domain: Domain, field: FieldPhysics) -> float:
+    """The potential far away: that of a half-space, or 0."""
+    for body, source in zip(domain.sizes.bodies, field.conductors, strict=True):
+        if body.kind == "half-space" and source is not None and source.voltage is not None:
+            return source.voltage
+    return 0.0
 
 
 def _trace(value: Any) -> Any:

@@ -17,8 +17,8 @@ class MeshSizes:
 
     ``edges`` holds smaller sizes along named edges of the shell, from which elements grow as ``grading`` allows.
     Around ``points`` of a surface, where a force acts on a shell that bends, elements are ``AT_POINTS`` times smaller.
-    The ambient ends at ``radius``, or at a ``box`` of these half edge lengths; ``beyond`` it a mapped region may stand
-    for the rest of space. ``bodies`` lie in it.
+    The ambient ends at ``radius`` around its ``centre``, or at a ``box`` of these half edge lengths; ``beyond`` it a
+    mapped region may stand for the rest of space. ``bodies`` lie in it.
     """
 
     shell: float
@@ -40,6 +40,12 @@ class MeshSizes:
         more than a soft membrane can afford, and creases that do not exist gain energy.
         """
         return self.order + 1
+
+    def centre(self, dimension: int) -> tuple[float, ...]:
+        """Of the sphere where the ambient ends: the origin, or below it on the surface of a half-space, so that this
+        surface consists of rays."""
+        levels = [body.level for body in self.bodies if body.kind == "half-space"]
+        return (0.0,) * (dimension - 1) + (levels[0] if levels and self.box is None else 0.0,)
 
     def along(self, edge: str) -> float:
         """Element size along the edge ``edge``, never more than on the shell."""

@@ -150,10 +150,11 @@ class _Space:
     def _ball(self, radius: float, name: str) -> Any:
         if self._sizes.box is not None:
             return self._box(name)
+        centre = self._sizes.centre(self._reduction.dimension)
         if self._reduction.dimension == 3:
-            ball = SphereSolid(Pnt(0, 0, 0), radius)
+            ball = SphereSolid(Pnt(*centre), radius)
         else:
-            ball = WorkPlane().Circle(0, 0, radius).Face()
+            ball = WorkPlane().Circle(*centre, radius).Face()
         self._name(ball, name)
         return ball
 

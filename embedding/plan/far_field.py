@@ -1,6 +1,7 @@
 """Where the meshed space ends and what follows: a mapped region to infinity, a Robin condition, or a grounded boundary.
 
-Lengths are in shell sizes. The reach is how far from the origin the shell and the bodies extend.
+Lengths are in shell sizes. The reach is how far the shell and the bodies extend from the origin, or from the point
+below it on the surface of a half-space, around which the meshed space then ends.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ import math
 from dataclasses import dataclass
 
 from embedding.plan.decisions import Decision
-from embedding.scene import Ambient, Scene
+from embedding.scene import Ambient, HalfSpace, Scene
 
 ROBIN_ERROR = 0.02
 """Of the second-order Robin condition, times (reach / radius)^5: in the dipole moment of a sphere off the centre, and a
@@ -64,8 +65,11 @@ def _decision(scene: Scene, kind: str, ratio: float) -> Decision:
 
 
 def reach_of(scene: Scene, ambient: Ambient) -> float:
-    """Distance from the origin (plane strain: from the axis) of the farthest point of the shell and of the bodies."""
+    """Distance from the centre of space (plane strain: of its axis) of the farthest point of the shell and of the
+    bodies, or a little more."""
     shape = scene.shell.shape
     seen = 2 if shape.reductions == ("plane-strain",) else 3
-    points = [math.hypot(*point[:seen]) for point in shape.sample_points()]
-    return max([*points, *(body.farthest(seen) for body in ambient.bodies)]) / shape.size
+    level = next((body.level for body in ambient.bodies if isinstance(body, HalfSpace)), 0.0)
+    points = [math.hypot(*point[: seen - 1], point[seen - 1] - level) for point in shape.sample_points()]
+    others = [body.farthest(seen) + abs(level) for body in ambient.bodies if not isinstance(body, HalfSpace)]
+    return max([*points, *others]) / shape.size

@@ -54,11 +54,11 @@ def test_pinned() -> None:
             math.hypot(1.5, 4.0),
         ),
         ({"kind": "box", "centre": [0.0, 0.0, -0.06], "size": [0.04, 0.06, 0.04], **IRON}, math.hypot(1.0, 1.5, 4.0)),
-        ({"kind": "half-space", "level": -0.03, "potential": 0.0}, 1.5),
+        ({"kind": "half-space", "level": -0.03, "potential": 0.0}, 2.5),
     ],
 )
 def test_bodies_lie_inside(body: dict[str, Any], reach: float) -> None:
-    """By their farthest point from the origin."""
+    """By their farthest point from the origin; over a half-space it is the shell's from the point below it."""
     with_body = scene(bodies=[body])
     assert with_body.ambient is not None
     assert reach_of(with_body, with_body.ambient) == pytest.approx(reach)
