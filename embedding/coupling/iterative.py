@@ -46,7 +46,7 @@ def far_unknowns(unknowns: Unknowns) -> Mask:
 
 
 class PotentialSolver(LinearSolver):
-    """Conjugate gradients for a definite matrix on a ``space``; ``iterations`` counts those of every solve."""
+    """Conjugate gradients for the matrix of a potential on its ``space``; ``iterations`` counts those of every solve."""
 
     def __init__(self, space: Any, free: Mask) -> None:
         super().__init__(as_bits(free))
@@ -69,7 +69,11 @@ class PotentialSolver(LinearSolver):
     def cycle(self) -> Cycle:
         """The preconditioner of the last :meth:`factor`."""
         if self._patches is None:
-            self._patches = VertexPatches(self._space, self.mask)
+            mesh = self._space.mesh
+            stiff = scalar_mask(self._space, mesh.Boundaries("shell")) | scalar_mask(
+                self._space, mesh.Materials("beyond")
+            )
+            self._patches = VertexPatches(self._space, self.mask, stiff)
         if self._cycle is None:
             try:
                 self._cycle = self._patches.cycle(self._form.mat)
