@@ -7,7 +7,7 @@ cannot be settled is refused.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -21,6 +21,7 @@ from ngsolve import (
     VERTEX,
     VOL,
     BitArray,
+    Det,
     ElementId,
     FacetSurface,
     Grad,
@@ -33,6 +34,7 @@ from ngsolve import (
     SurfaceL2,
     ds,
     dx,
+    specialcf,
 )
 
 from embedding.errors import Problem, SceneError
@@ -47,6 +49,10 @@ from embedding.geometry.surroundings import BodyError
 from embedding.scene import Shape as Shape
 from embedding.scene import SurfaceFile
 
+FINER = ((1.0, 1.0), (1.0, 0.8), (0.9, 0.6))
+"""Size on the shell and grading of the mesh that is taken, over what is asked for: now and then an element on the
+hollow side of a coarse shell, with two faces on it, folds when it is curved with the shell. Smaller elements help, and
+so do elements that grow less."""
 FLATTEST = 1e-6
 """Curvature of a surface of size 1 that cannot be told from none."""
 
@@ -135,6 +141,14 @@ class Domain:
     def _filled(self) -> set[str]:
         """Materials that have elements."""
         return {element.mat for element in self.mesh.Elements(VOL)} if self.has_ambient else set()
+
+    @property
+    def unfolded(self) -> bool:
+        """Have the curved elements of the ambient a positive volume everywhere?"""
+        dimension = self.mesh.dim
+        rule = IntegrationRule(ET.TET if dimension == 3 else ET.TRIG, 2 * self.sizes.order)
+        points = self.mesh.MapToAllElements(rule, VOL)
+        return bool(np.min(Det(specialcf.JacobianMatrix(dimension))(points)) > 0.0)
 
     @property
     def open(self) -> bool:
@@ -235,12 +249,21 @@ def build(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Domain:
         SceneError: the surface has no two sides, because it is one-sided or has junctions inside an ambient; there is
             no room for a body; or there is no sound mesh of these sizes.
     """
+    if not sizes.radius:
+        return _built(shape, reduction, sizes)
+    for size, growth in FINER:
+        finer = replace(sizes, shell=size * sizes.shell, grading=growth * sizes.grading)
+        domain = _built(shape, reduction, finer)
+        if domain.unfolded:
+            return domain
+    raise _unfit("elements around the curved shell are folded: make the mesh on the shell finer")
+
+
+def _built(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Domain:
     try:
         meshed = meshing.mesh(shape, reduction, sizes)
         meshed.mesh.Curve(sizes.order)
-        domain = Domain(
-            meshed.mesh, reduction, shape, sizes, meshed.faces, meshed.rim_vertices, meshed.rim_edges
-        )
+        domain = Domain(meshed.mesh, reduction, shape, sizes, meshed.faces, meshed.rim_vertices, meshed.rim_edges)
         _ = domain.normal
     except (OneSidedError, JunctionError) as error:
         reason = f"not allowed: {error}, so it has no top" if isinstance(error, OneSidedError) else (

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from embedding.errors import Problem
 from embedding.scene.part import known
+from embedding.scene.shapes import Annulus
 
 if TYPE_CHECKING:
     from embedding.scene.scene import Scene
@@ -35,6 +36,9 @@ def applied(scene: Scene) -> bool:
 def _junctions(scene: Scene) -> Iterator[Problem]:
     shape = scene.shell.shape
     if known(scene.ambient) is not None and not shape.surroundable:
+        if isinstance(shape, Annulus):
+            yield Problem("ambient", "not allowed around a slit ring: there is no space between the lips of the slit")
+            return
         reason = "more than two plates meet in its junction, and the space between them has no top and bottom"
         yield Problem("ambient", f'not allowed around a shape of kind "{shape.kind}": {reason}')
 

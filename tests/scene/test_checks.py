@@ -14,6 +14,7 @@ from tests.scene.samples import MATERIAL, refusals, scene, shell
 ELECTRIC = {"field": "electric"}
 MAGNETIC = {"field": "magnetic"}
 DIELECTRIC = {"relative_permittivity": 3.0}
+SLIT = {"kind": "annulus", "inner_radius": 0.01, "outer_radius": 0.02, "slit": True}
 NOT_AXISYMMETRIC = 'the x and y components must be 0 when model.reduction is "axisymmetric"'
 ONLY_RADIUS = 'must depend on x and y through x**2 + y**2 only when model.reduction is "axisymmetric"'
 
@@ -53,6 +54,7 @@ def traction(edge: str, *components: float) -> dict[str, Any]:
         ("infinite-cylinder", {"ambient": {"field": "magnetic", "applied_field": [1, 0, 5]}, "of_shell": {"relative_permeability": 2}}, "ambient.applied_field.2: 5.0 A/m is not allowed: must be 0 along the axis of an infinite cylinder"),
         ("plate", {"path": [{}, {"volume_ratio": 2}]}, 'path.1.volume_ratio: not allowed for a shape of kind "plate": only closed shells enclose a volume'),
         ("sphere", {"path": [{"volume_ratio": 2}], "loads": {"pressure_bottom": {"expression": "z"}}}, "path.0.volume_ratio: not allowed: loads.pressure_bottom varies over the surface, and volume control needs uniform pressures"),
+        ("sphere", {"ambient": ELECTRIC, "of_shell": DIELECTRIC | {"shape": SLIT}}, "ambient: not allowed around a slit ring: there is no space between the lips of the slit"),
         ("t-section", {"ambient": ELECTRIC, "of_shell": DIELECTRIC}, 'ambient: not allowed around a shape of kind "t-section": more than two plates meet in its junction, and the space between them has no top and bottom'),
         ("sphere", {"ambient": {"field": "electric", "radius": "20.1 mm"}, "of_shell": DIELECTRIC}, "ambient.radius: 0.0201 m is not allowed: must be greater than 0.0201 m, the farthest point of the shell from the origin plus half its thickness"),
         ("sphere", {"faces": {"top": {"voltage": 1}}}, 'faces.top: an electrode needs a field around the shell: add [ambient] with field = "electric"'),

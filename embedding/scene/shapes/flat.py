@@ -108,6 +108,11 @@ class Annulus(Revolved):
         return () if self.slit else super().mirrors
 
     @property
+    def surroundable(self) -> bool:
+        """The lips of a slit lie in one place."""
+        return not self.slit
+
+    @property
     def size(self) -> float:
         """The outer radius, in m."""
         return self.outer_radius
