@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 from ngsolve import BilinearForm, FESpace, Grad, GridFunction, Id, Variation, dx
 
+from embedding.ambient.inverse import Inverter
 from embedding.ambient.motion import AmbientMotion, extension_energy
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits, as_mask
@@ -40,7 +41,7 @@ class Extension:
         self._matrix = form.mat
         free = np.zeros(space.ndof, bool)
         free[: interior.ndof] = as_mask(motion.free)
-        self._inverse = form.mat.Inverse(as_bits(free), inverse="sparsecholesky")
+        self._inverse = Inverter(space, as_bits(free), motion.linear)(form.mat)
         self._starts = np.cumsum([0, interior.ndof, *(face.ndof for face in faces.values())]).tolist()
         self._sides = tuple(faces)
         self._vector = self._matrix.CreateColVector()

@@ -31,6 +31,7 @@ from ngsolve import (
     specialcf,
 )
 
+from embedding.ambient.inverse import Inverter, Linear
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits, plane_mask, scalar_mask
 
@@ -56,10 +57,11 @@ class AmbientMotion:
     """The motion y + w of the ambient on one or both sides: face displacements ``y`` by side, interior motion ``w``.
 
     ``faces`` holds the space of the face's displacement for each side ("outside", "inside"). Around an open shell both
-    sides are one space; a closed one parts them, and each side has a motion of its own.
+    sides are one space; a closed one parts them, and each side has a motion of its own. ``linear`` says how its
+    equations are solved.
     """
 
-    def __init__(self, domain: Domain, faces: Mapping[str, Any]) -> None:
+    def __init__(self, domain: Domain, faces: Mapping[str, Any], linear: Linear = "auto") -> None:
         mesh = domain.mesh
         self.materials = "|".join(domain.materials(side) for side in faces)
         interior = VectorH1(mesh, order=INTERIOR_ORDER, definedon=mesh.Materials(self.materials))
@@ -76,6 +78,7 @@ class AmbientMotion:
             strain = extension_energy(Id(mesh.dim) + (Grad(trial) if y is None else Grad(y) + Grad(trial)))
             self._form += Variation(strain * dx(materials, intrules=self.rule)).Compile()
         self.free = as_bits(_interior_mask(domain, interior))
+        self.linear, self._inverter = linear, Inverter(interior, self.free, linear)
         self._samples = [
             (Det(gradient).Compile(), mesh.MapToAllElements(_sampling(mesh.dim, order), mesh.Materials(materials)))
             for materials, gradient, order in self._gradients(domain)
@@ -160,7 +163,7 @@ class AmbientMotion:
 
     def _assemble(self, faces: Array) -> None:
         self._form.AssembleLinearization(self.w.vec)
-        self._inverse = self._form.mat.Inverse(self.free, inverse="sparsecholesky")
+        self._inverse = self._inverter(self._form.mat)
         self._assembled_at = faces.copy()
 
     def _predict(self, faces: Array) -> bool:

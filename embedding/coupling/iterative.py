@@ -10,7 +10,7 @@ the cycle of that matrix preconditions it. Source: theory page, "Large ambients"
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -22,18 +22,10 @@ from embedding.coupling.unknowns import FACES, SIDES, Unknowns
 from embedding.geometry.spaces import Mask, as_bits, scalar_mask
 
 Array = npt.NDArray[np.float64]
-Linear = Literal["auto", "direct", "iterative"]
-LARGE = 60_000
-"""Free unknowns of the potential from where on it is solved by iteration, by measurement: docs/benchmarks."""
 POTENTIAL_TOLERANCE, JOINT_TOLERANCE = 1e-10, 1e-9
 MOST_ITERATIONS, MOST_JOINT = 200, 100
 WORN = 40
 """Iterations of the joint system after which a preconditioner from an earlier state is replaced."""
-
-
-def iterates(linear: Linear, unknowns: int) -> bool:
-    """Is a potential with so many free ``unknowns`` solved by iteration?"""
-    return linear == "iterative" or (linear == "auto" and unknowns > LARGE)
 
 
 def far_unknowns(unknowns: Unknowns) -> Mask:
@@ -46,7 +38,7 @@ def far_unknowns(unknowns: Unknowns) -> Mask:
 
 
 class PotentialSolver(LinearSolver):
-    """Conjugate gradients for the matrix of a potential on its ``space``; ``iterations`` counts those of every solve."""
+    """Conjugate gradients for the matrix of a potential on its ``space``; ``iterations`` counts them, by solve."""
 
     def __init__(self, space: Any, free: Mask) -> None:
         super().__init__(as_bits(free))

@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 from ngsolve import BilinearForm, FESpace, GridFunction, Variation
 
+from embedding.ambient.inverse import Linear, iterates
 from embedding.ambient.patches import Cycle
 from embedding.ambient.potential import Conductor
-from embedding.coupling.iterative import Linear, PotentialSolver, iterates
+from embedding.coupling.iterative import PotentialSolver
 from embedding.coupling.lagrangian import Lagrangian
 from embedding.coupling.linear import DirectSolver
 from embedding.geometry.spaces import as_bits

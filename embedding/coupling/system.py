@@ -10,10 +10,11 @@ import numpy.typing as npt
 import scipy.sparse as sparse
 from ngsolve import BND, GridFunction, InnerProduct
 
+from embedding.ambient.inverse import Linear
 from embedding.ambient.motion import AmbientMotion
 from embedding.coupling.elementwise import form_of
 from embedding.coupling.following import Following
-from embedding.coupling.iterative import JointSolver, Linear, far_unknowns
+from embedding.coupling.iterative import JointSolver, far_unknowns
 from embedding.coupling.lagrangian import OFFSET, Factors, Lagrangian
 from embedding.coupling.linear import DirectSolver, LinearSolver
 from embedding.coupling.physics import Physics
@@ -40,7 +41,7 @@ class System:
         self.domain, self.physics = domain, physics
         self.factors = Factors()
         self.unknowns = Unknowns(domain, physics)
-        self.motions = self._ambient_motions()
+        self.motions = self._ambient_motions(linear)
         self.lagrangian = Lagrangian(domain, physics, self.unknowns, self.motions, self.factors)
         self.form = form_of(self.lagrangian)
         self.potential = PotentialSolve(self.lagrangian, linear) if self.unknowns.potential is not None else None
@@ -60,12 +61,12 @@ class System:
         self._measured = self._linearised = self._displacement
         self.residual()  # NGSolve differentiates an interpolation wrongly until it has been evaluated once
 
-    def _ambient_motions(self) -> dict[str, AmbientMotion]:
+    def _ambient_motions(self, linear: Linear) -> dict[str, AmbientMotion]:
         """The motion of each side; around an open shell both sides are one space with one motion."""
         faces = {SIDES[face]: space for face, space in self.unknowns.face_spaces.items()}
         if self.domain.open and faces:
-            return dict.fromkeys(faces, AmbientMotion(self.domain, faces))
-        return {side: AmbientMotion(self.domain, {side: space}) for side, space in faces.items()}
+            return dict.fromkeys(faces, AmbientMotion(self.domain, faces, linear))
+        return {side: AmbientMotion(self.domain, {side: space}, linear) for side, space in faces.items()}
 
     def _resultants(self) -> dict[str, ShellResultants | BodyResultants]:
         """What measures the field's force and torque on the shell and on each body."""
