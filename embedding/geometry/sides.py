@@ -19,9 +19,12 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
+from scipy.spatial import cKDTree
 
 from embedding.geometry.facets import Facets
+from embedding.geometry.file import file
 from embedding.geometry.reduction import Reduction
+from embedding.geometry.sizes import MeshSizes
 from embedding.scene import Arch, Cap, Cone, Cylinder, Hemisphere, Shape, SurfaceFile, TSection
 
 Floats = npt.NDArray[np.float64]
@@ -44,8 +47,8 @@ def signs(facets: Facets, shape: Shape, reduction: Reduction) -> Floats:
     corner = np.sign(np.einsum("ij,ij->i", own, facets.corner_normals))
     consistent = facets.turns * corner
     if isinstance(shape, SurfaceFile):
-        first = np.unique(facets.parts, return_index=True)[1]
-        return np.asarray((-1.0 if shape.flip else 1.0) * consistent * consistent[first][facets.parts])
+        turn = _as_in_the_file(facets, shape, consistent[:, None] * own, reduction)
+        return np.asarray((-1.0 if shape.flip else 1.0) * consistent * turn[facets.parts])
     upwards = np.einsum("ij,ij->i", own, _up(facets.at_centres(reduction.position), shape)) * consistent
     area = np.linalg.norm(facets.corner_normals, axis=1)
     count = facets.parts.max() + 1
@@ -53,6 +56,26 @@ def signs(facets: Facets, shape: Shape, reduction: Reduction) -> Floats:
     if np.abs(share).min() < CLEAR:
         raise UnclearSidesError("the shell's sides cannot be told apart on this mesh")
     return np.asarray(consistent * np.sign(share)[facets.parts])
+
+
+def _as_in_the_file(facets: Facets, shape: SurfaceFile, normals: Floats, reduction: Reduction) -> Floats:
+    """+1 or -1 for each part: times it, the ``normals`` (n, 3) are those of the part's first face in the file.
+
+    Only a mesh of the surface alone keeps its faces' order and normals.
+    """
+    if facets.mesh.ne == 0:
+        first = np.unique(facets.parts, return_index=True)[1]
+        own = facets.at_centres(reduction.normal)
+        return np.asarray(np.sign(np.einsum("ij,ij->i", normals[first], own[first])))
+    size = float(np.sqrt(2 * np.linalg.norm(facets.corner_normals, axis=1).mean()))
+    alone = file(shape).mesh(MeshSizes(shell=size, far=size, radius=0.0, grading=0.3, order=1))
+    seeds = Facets(alone, alone.Boundaries("shell"))
+    first = np.unique(seeds.parts, return_index=True)[1]
+    places, wanted = seeds.points.mean(axis=1)[first], seeds.at_centres(reduction.normal)[first]
+    near = cKDTree(facets.points.mean(axis=1)).query(places)[1]
+    turn = np.ones(facets.parts.max() + 1)
+    turn[facets.parts[near]] = np.sign(np.einsum("ij,ij->i", normals[near], wanted))
+    return turn
 
 
 def _up(positions: Floats, shape: Shape) -> Floats:
