@@ -1,0 +1,33 @@
+"""Remanent shells and the field around them: closed, with and without poles, and open."""
+
+from __future__ import annotations
+
+from problems import magnetised_disc, magnetised_sphere
+from problems.magnetised_sphere import ALONG_NORMAL, FINE, at
+from tests.problems.measures import orders
+
+
+def test_uniform_remanence() -> None:
+    """A dipole outside, to the mesh; in the cavity what is left is of second order in the thickness."""
+    ratios = (0.1, 0.05)
+    found = [magnetised_sphere.run(at(ratio), *FINE)[1] for ratio in ratios]
+    assert max(fields.outside for fields in found) < 1e-4
+    assert min(orders(ratios, [fields.cavity for fields in found])) > 1.85
+    assert found[1].cavity < 1e-3
+
+
+def test_remanence_along_the_normal() -> None:
+    """No field on either side: to the mesh by default, to rounding on a fine one."""
+    solution, coarse = magnetised_sphere.run(ALONG_NORMAL)
+    assert coarse.outside < 2e-5 and coarse.cavity < 3e-3
+    assert max(magnetised_sphere.run(ALONG_NORMAL, *FINE)[1]) < 1e-8
+    assert abs(solution["force_z"][-1]) < 1e-6
+
+
+def test_disc() -> None:
+    """The field of a ring current, first order in the size of the elements at the rim, which carries it."""
+    solution, default = magnetised_disc.run()
+    fine = magnetised_disc.run("discretisation.order=4", "discretisation.shell_size=1 mm")[1]
+    assert default.thick < 7e-3
+    assert fine.thick < 2e-3
+    assert abs(solution["force_z"][-1]) < 1e-6, "no force from its own field"
