@@ -48,9 +48,9 @@ class Matter:
             stored = 0.5 * field_squared + self._magnetised(contrast - 1, field_squared)
         return stored if self.remanence is None else stored + InnerProduct(CF(self.remanence), pulled_back)
 
-    def excess(self, field_squared: Any, pulled_back: Any) -> Any:
-        """Co-energy above that of free space in the same field."""
-        return self.coenergy(field_squared, pulled_back) - 0.5 * field_squared
+    def excess(self, field_squared: Any, pulled_back: Any, medium: float) -> Any:
+        """Co-energy above that of the ``medium`` around (its contrast) in the same field."""
+        return self.coenergy(field_squared, pulled_back) - 0.5 * medium * field_squared
 
     def _magnetised(self, chi: Any, field_squared: Any) -> Any:
         limit = CF(self.saturation)
@@ -75,10 +75,13 @@ def shell_field_energy(
     return thickness * matter.coenergy(InnerProduct(field, field), pulled_back)
 
 
-def given_field_energy(kinematics: Kinematics, thickness: Any, matter: Matter, strength: Any) -> Any:
-    """Excess co-energy per reference area of a shell in a field it does not change, ``strength`` at its present place.
+def given_field_energy(
+    kinematics: Kinematics, thickness: Any, matter: Matter, strength: Any, medium: float = 1.0
+) -> Any:
+    """Excess co-energy per reference area, over that of the ``medium`` around, of a shell that does not change a field
+    of the ``strength`` at its present place.
 
     Exact for remanence in the field of others; of an induced magnetisation the first order in mu_r - 1.
     """
     pulled_back = kinematics.spatial_gradient.trans * strength
-    return thickness * matter.excess(InnerProduct(strength, strength), pulled_back)
+    return thickness * matter.excess(InnerProduct(strength, strength), pulled_back, medium)

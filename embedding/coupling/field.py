@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ngsolve import CF, Cof, Det, Grad, InnerProduct, Parameter
+from ngsolve import CF, VOL, Cof, Det, Grad, InnerProduct, Parameter
 
 from embedding.ambient.energy import field_energy
 from embedding.ambient.far import far_field
@@ -49,17 +49,26 @@ class FieldEnergies:
 
     def motion_of(self, face: str, values: dict[str, Any]) -> Moved:
         """What moves the elements beside ``face`` ("t" or "b"), without the ambient's interior motion."""
+        parts = [values[name] for name in self._movers(face)]
+        return Moved(sum(parts[1:], parts[0]), sum(map(Grad, parts[1:]), Grad(parts[0])))
+
+    def _movers(self, face: str) -> list[str]:
+        """The unknowns whose sum displaces ``face``."""
         names = [] if face in self.unknowns.opened and not self.domain.open else ["u"]
-        names += [self.unknowns.moved_by(face)] if face in self.unknowns.opened else []
-        return Moved(
-            sum((values[name] for name in names[1:]), values[names[0]]),
-            sum((Grad(values[name]) for name in names[1:]), Grad(values[names[0]])),
-        )
+        return names + ([self.unknowns.moved_by(face)] if face in self.unknowns.opened else [])
+
+    def _on_face(self, face: str, values: dict[str, Any]) -> Moved:
+        """Displacement of ``face`` and its surface gradient, on the shell itself."""
+        parts = [values[name] for name in self._movers(face)]
+        slopes = [surface_gradient(part) for part in parts]
+        return Moved(sum(map(_trace, parts[1:]), _trace(parts[0])), sum(slopes[1:], slopes[0]))
 
     def side_potential_gradient(self, side: str, values: dict[str, Any]) -> Any:
-        """Reference gradient of the potential on ``side`` in the elements that touch the shell."""
-        gradient = Grad(values["phi"])
-        return gradient + Grad(values["jump"]) if self.lifts(side, values) else gradient
+        """Reference gradient of the potential on ``side`` in the elements that touch the shell; a ``shift`` among the
+        values comes on top."""
+        names = ["phi", *(["jump"] if self.lifts(side, values) else []), *(["shift"] if "shift" in values else [])]
+        slopes = [Grad(values[name]) for name in names]
+        return sum(slopes[1:], slopes[0])
 
     def lifts(self, side: str, values: dict[str, Any]) -> bool:
         """Is the potential on ``side`` phi + jump?"""
@@ -70,7 +79,7 @@ class FieldEnergies:
         strength = -1 * (Cof(F) * self.side_potential_gradient(side, values)) / Det(F)
         if self.field.varying is None:
             return strength
-        return strength + self._given_at(self.domain.reduction.position + motion)
+        return strength + self.given_at(self.domain.reduction.position + motion)
 
     def side_energies(
         self, values: dict[str, Any], side: str, face: Moved, interior: Moved | None = None
@@ -84,7 +93,7 @@ class FieldEnergies:
         gradient = self.side_potential_gradient(side, values)
         near = field_energy(domain.reduction, moved, slope, gradient, self.axial)
         if self.field.varying is not None:
-            given = self._given_at(domain.reduction.position + moved)
+            given = self.given_at(domain.reduction.position + moved)
             near = near + given_energy(domain.reduction, moved, slope, given, self.axial)
         terms = [liquid * near * domain.volume(domain.near(side))]
         far = domain.far(side)
@@ -115,23 +124,24 @@ class FieldEnergies:
         terms = []
         for name, side in SIDES.items():
             terms += self.side_energies(values, side, self.motion_of(name, values))
-            terms += [self._through_face(name, values)] if field.varying is not None else []
+            terms += [self.through_face(name, values)] if field.varying is not None else []
         terms += self._far_energies(values) + self._solid_energies(values)
         if "jump" in values and (field.matter.contrast is not None or field.matter.remanence is not None):
             terms.append(self._inside_shell(values) * self.domain.surface())
         return terms
 
-    def _through_face(self, name: str, values: dict[str, Any]) -> Any:
+    def through_face(self, name: str, values: dict[str, Any]) -> Any:
         """The mixed part of a varying applied field and the potential, on the face ``name``."""
         domain, field, side = self.domain, self.field, SIDES[name]
-        moved = self.motion_of(name, values)
-        y, gradient = _trace(moved.value), _trace(moved.gradient)
+        moved = self._on_face(name, values)
+        y, gradient = moved.value, moved.gradient
         potential = _trace(values["phi"]) + (_trace(values["jump"]) if self.lifts(side, values) else 0.0)
+        potential = potential + (_trace(values["shift"]) if "shift" in values else 0.0)
         face = Face(domain.reduction, domain.normal, y, gradient, self.axial)
-        energy = face_energy(domain.reduction, face, potential, self._given_at(domain.reduction.position + y))
+        energy = face_energy(domain.reduction, face, potential, self.given_at(domain.reduction.position + y))
         return (1.0 if name == "t" else -1.0) * field.liquids.get(side, 1.0) * energy * domain.surface()
 
-    def _given_at(self, place: Any) -> Any:
+    def given_at(self, place: Any) -> Any:
         """The applied field at a place (mesh components)."""
         field = self.field
         strength = CF(field.applied) if field.varying is None else CF(field.applied) + field.varying(place)
@@ -152,13 +162,21 @@ class FieldEnergies:
                 slope = Grad(values["phi"])
                 field, energy = -1 * slope, CF(0.0)
                 if self.field.varying is not None:
-                    given = self._given_at(self.domain.reduction.position)
-                    field, energy = field + given, InnerProduct(slope, given)
+                    given = self.given_at(self.domain.reduction.position)
+                    liquid = self.field.liquids.get(self._side_of_body(number), 1.0)
+                    field, energy = field + given, liquid * InnerProduct(slope, given)
                 energy = energy + 0.5 * body.contrast * InnerProduct(field, field)
                 if body.remanence is not None:
                     energy = energy + self._factor * InnerProduct(CF(body.remanence), field)
                 terms.append(self.measure * self.axial * energy * self.domain.volume(f"magnet{number}"))
         return terms
+
+    def _side_of_body(self, number: int) -> str:
+        """The side of the shell that a solid body stands on."""
+        mesh = self.domain.mesh
+        beside = mesh.Materials(f"magnet{number}").Neighbours(VOL)
+        names = [name for name, there in zip(mesh.GetMaterials(), beside.Mask(), strict=True) if there]
+        return "inside" if any(name.startswith("inside") for name in names) else "outside"
 
     def _inside_shell(self, values: dict[str, Any]) -> Any:
         sign = 1.0 if self.field.electrodes.lifted == "outside" else -1.0
@@ -180,10 +198,12 @@ class FieldEnergies:
 
     def _in_given_field(self, values: dict[str, Any]) -> Any:
         kinematics, thickness = self._kinematics(values), self.thickness
-        return self.measure * given_field_energy(kinematics, thickness, self.field.matter, self._given_here(values))
+        medium = self.field.liquids.get("outside", 1.0)
+        given = self._given_here(values)
+        return self.measure * given_field_energy(kinematics, thickness, self.field.matter, given, medium)
 
     def _given_here(self, values: dict[str, Any]) -> Any:
-        return self._given_at(self.domain.reduction.position + _trace(values["u"]))
+        return self.given_at(self.domain.reduction.position + _trace(values["u"]))
 
 
 def _at_infinity(domain: Domain, field: FieldPhysics) -> float:

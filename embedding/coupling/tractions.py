@@ -20,14 +20,15 @@ from ngsolve import BilinearForm, Grad, GridFunction, InnerProduct, Variation, s
 from embedding.coupling.field import Moved
 from embedding.coupling.lagrangian import Lagrangian
 from embedding.coupling.unknowns import SIDES
-from embedding.geometry.spaces import as_bits
+from embedding.geometry.spaces import TraceSpace, as_bits
 from embedding.shell.kinematics import Kinematics
 
 SIGN = {"t": 1.0, "b": -1.0}
 
 
 class FaceTractions:
-    """The field's traction on face ``face`` ("t" or "b") in the present state."""
+    """The field's traction on face ``face`` ("t" or "b") in the present state: ``total`` is minus it, per reference
+    area."""
 
     def __init__(self, lagrangian: Lagrangian, face: str) -> None:
         unknowns, domain = lagrangian.unknowns, lagrangian.domain
@@ -37,6 +38,12 @@ class FaceTractions:
         self.displacement = GridFunction(unknowns.trace.space)
         self.tau = unknowns.field(f"tau_{face}") if opened else GridFunction(unknowns.face_spaces[face])
         self._recovery = None if opened else NodalForces(lagrangian, face)
+        self._flux: FaceFlux | None = None
+        self.total = self.tau
+        if lagrangian.field is not None and lagrangian.field.field.varying is not None:
+            self._flux = FaceFlux(lagrangian, face)
+            given = lagrangian.field.given_at(domain.reduction.position + self.displacement)
+            self.total = self.tau - self._flux.flux * given
         self.kinematics = Kinematics(
             domain.reduction, domain.normal, self.displacement, lagrangian.physics.axial_stretch
         )
@@ -46,17 +53,19 @@ class FaceTractions:
         self._unknowns.displacement(self.face, self.displacement.vec)
         if self._recovery is not None:
             self._recovery.recover(self.tau)
+        if self._flux is not None:
+            self._flux.refresh()
 
     def pressure(self, kinematics: Kinematics | None = None) -> Any:
         """p_t or p_b, dimensionless; ``kinematics`` replaces the face's own (for evaluation on the axis)."""
         k = kinematics or self.kinematics
-        return SIGN[self.face] * InnerProduct(self.tau, k.area_vector) / k.surface_stretch_squared
+        return SIGN[self.face] * InnerProduct(self.total, k.area_vector) / k.surface_stretch_squared
 
     def tangential(self, kinematics: Kinematics | None = None) -> Any:
         """Tangential traction vector per deformed face area, dimensionless, shape (d,)."""
         k = kinematics or self.kinematics
-        normal_part = InnerProduct(self.tau, k.area_vector) / k.surface_stretch_squared
-        return -1 * (self.tau - normal_part * k.area_vector) / sqrt(k.surface_stretch_squared)
+        normal_part = InnerProduct(self.total, k.area_vector) / k.surface_stretch_squared
+        return -1 * (self.total - normal_part * k.area_vector) / sqrt(k.surface_stretch_squared)
 
     def mean_pressure(self) -> float:
         """Mean of the pressure over the reference mid-surface."""
@@ -89,3 +98,37 @@ class NodalForces:
         forces = tau.vec.CreateVector()
         self._force.Apply(self._displacement.vec, forces)
         tau.vec.data = self._inverse * forces
+
+
+class FaceFlux:
+    """How the co-energy of one side answers to the potential of its face, per reference area: ``flux``, b . m on the
+    top, - b . m on the bottom.
+
+    Where the applied field varies, the face's multiplier is the derivative of that co-energy at a fixed potential of the
+    change. At a fixed potential of the whole, which the traction is, comes minus the flux times the applied field on
+    top; the field inside the shell carries the difference.
+    """
+
+    def __init__(self, lagrangian: Lagrangian, face: str) -> None:
+        unknowns, domain, field = lagrangian.unknowns, lagrangian.domain, lagrangian.field
+        if field is None:
+            raise RuntimeError("this scene has no field")
+        order, side = domain.sizes.potential_order, SIDES[face]
+        trace = TraceSpace(domain.mesh, order, vector=False, reach=domain.materials(side))
+        self.flux = GridFunction(trace.space)
+        self._still = GridFunction(trace.space)
+        values = {name: unknowns.field(name) for name in unknowns.names} | {"shift": trace.space.TrialFunction()}
+        self._form = BilinearForm(trace.space)
+        for term in [*field.side_energies(values, side, field.motion_of(face, values)), field.through_face(face, values)]:
+            self._form += Variation(term).Compile()
+        mass = BilinearForm(trace.space, symmetric=True)
+        trial, test = trace.space.TnT()
+        mass += domain.reduction.measure * trial.Trace() * test.Trace() * domain.surface()
+        mass.Assemble()
+        self._inverse = mass.mat.Inverse(as_bits(trace.free), inverse="sparsecholesky")
+
+    def refresh(self) -> None:
+        """Bring ``flux`` up to date with the state."""
+        answer = self.flux.vec.CreateVector()
+        self._form.Apply(self._still.vec, answer)
+        self.flux.vec.data = self._inverse * answer

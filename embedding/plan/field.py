@@ -8,7 +8,7 @@ from embedding.scene.checks_electrodes import inside_only, one_conductor
 
 CLOSED_FACES = 1.6
 """A field on faces at the mid-surface is off by this many thicknesses over size; measured on exact thick spheres."""
-ROOM = 2.5
+ROOM = 0.6
 """Elements along a rim, in thicknesses, that can hold faces opened to the full thickness one element away from it."""
 
 
@@ -51,7 +51,8 @@ def choose_interface(scene: Scene, rim_size: float | None) -> tuple[tuple[str, .
     reason = "faces at their true places: second order in the thickness"
     if rim_size is not None:
         return ("t", "b"), Decision("interface", "opened", f"{reason}; they meet in the rim, one element away from it")
-    if scene.model.interface == "auto" and one_conductor(scene):
+    empty = scene.ambient is None or not scene.ambient.bodies
+    if scene.model.interface == "auto" and one_conductor(scene) and empty:
         reason += "; the bottom face bounds a space without a field, where its place is not felt"
         return ("t",), Decision("interface", "opened at the top", reason)
     return ("t", "b"), Decision("interface", "opened", reason)

@@ -151,6 +151,8 @@ def _inside_only(scene: Scene) -> Iterator[Problem]:
             yield Problem(f"faces.{name}", f"missing: needed {pinned}")
     if known(scene.shell.relative_permittivity) is None:
         yield Problem("shell.relative_permittivity", f"missing: needed {pinned}")
+    if scene.faces.both is None and one_conductor(scene):
+        yield Problem("faces.top.voltage", f"must differ from that of the bottom {pinned}")
 
 
 ELECTRODE_CHECKS = (

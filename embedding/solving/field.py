@@ -6,11 +6,13 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 from ngsolve import CF, Cross, InnerProduct
 
 from embedding.ambient.sources import Electrodes, Source
 from embedding.ambient.transmission import Matter
 from embedding.coupling.physics import FieldPhysics, Solid
+from embedding.errors import Problem, SceneError
 from embedding.geometry.domain import Domain
 from embedding.geometry.reduction import Reduction
 from embedding.plan.decisions import Plan
@@ -29,10 +31,15 @@ NOTHING: dict[str, Callable[[Domain], Any]] = {
 
 
 def field_on(scene: Scene, plan: Plan, scales: Scales, domain: Domain) -> FieldPhysics | None:
-    """The dimensionless statement of the field on the mesh of ``domain``; None for a scene without one."""
+    """The dimensionless statement of the field on the mesh of ``domain``; None for a scene without one.
+
+    Raises:
+        SceneError: a wire passes through the elements that touch the shell.
+    """
     ambient = scene.ambient
     if ambient is None or plan.extent == "none":
         return None
+    refuse_close_wires(scene, domain, scales)
     return FieldPhysics(
         electrodes=_electrodes(scene, scales),
         matter=_matter(scene, domain, scales),
@@ -118,6 +125,32 @@ def _line_current(line: LineCurrent, reduction: Reduction, scales: Scales) -> Ca
         return h if reduction.dimension == 3 else CF((h[0], h[1]))
 
     return field
+
+
+def refuse_close_wires(scene: Scene, domain: Domain, scales: Scales) -> None:
+    """Line currents must not pass through the elements that touch the shell, which hold the applied field's own energy.
+
+    Raises:
+        SceneError: one does.
+    """
+    wires = scene.ambient.line_currents if scene.ambient is not None else ()
+    if not wires or not domain.has_ambient:
+        return
+    near = [e for side in ("outside", "inside") for e in domain.mesh.Materials(domain.near(side)).Elements()]
+    points = np.array([[domain.mesh[v].point for v in element.vertices] for element in near])
+    points = np.pad(points, ((0, 0), (0, 0), (0, 3 - points.shape[2])))
+    centres = points.mean(axis=1)
+    reach = np.linalg.norm(points - centres[:, None], axis=2).max(axis=1)
+    problems = []
+    for number, wire in enumerate(wires):
+        along = np.array(wire.along) / np.linalg.norm(wire.along)
+        away = np.cross(centres - np.array(wire.through) / scales.length, along)
+        if np.any(np.linalg.norm(away, axis=1) < reach):
+            reason = "not allowed: the wire passes through the elements that touch the shell"
+            advice = "move it away, or make the mesh on the shell finer"
+            problems.append(Problem(f"ambient.line_currents.{number}", f"{reason}; {advice}"))
+    if problems:
+        raise SceneError(problems)
 
 
 def _body(body: Body, reduction: Reduction, scales: Scales) -> Source | Solid:
