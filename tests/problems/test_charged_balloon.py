@@ -110,3 +110,15 @@ def test_air_inside_and_charge_outside_add_up() -> None:
         errors.append(float(np.abs(solution["stretch"] - known).max()))
     assert errors[0] < 3e-4
     assert orders(ratios, errors)[0] > 1.9
+
+
+def test_a_held_charge() -> None:
+    """Q^2 = 64 pi^2 eps0 mu T R^3 (l^3 - l^-3) on the membrane: one stretch for every charge."""
+    stretch = 1.8
+    charge = math.sqrt(64.0 * math.pi**2 * EPSILON_0 * 30e3 * 1e-3 * 0.02**3 * (stretch**3 - stretch**-3))
+    held = ("faces={both={charge=" + repr(charge) + "}}", "model.interface=closed", "path=[{steps = 6}]")
+    solution = charged_balloon.run(*held, *FINE)
+    assert solution["stretch"][-1] == pytest.approx(stretch, abs=2e-6)
+    known = charge / (4.0 * math.pi * EPSILON_0 * 0.02 * stretch)
+    assert solution["voltage"][-1] == pytest.approx(known, rel=2e-6)
+    assert (solution["unstable_modes"] == 0).all()

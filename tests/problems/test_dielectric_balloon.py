@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from embedding import Result
+from embedding.scene.scales import EPSILON_0
 from problems import dielectric_balloon
 from tests.problems.measures import orders
 
@@ -30,3 +33,35 @@ def test_pull_in_is_found_and_named() -> None:
     assert solution.result is Result.PULL_IN
     reached = dielectric_balloon.voltage(solution.scene) * solution.steps[-1].factor_field
     assert reached == pytest.approx(limit.load, rel=1e-3) and reached < limit.load
+
+
+def at_pole(growth: str) -> str:
+    """The end of a stage, where the pole has moved this far."""
+    return f"until={{where=['0 mm', '0 mm', '20 mm'], axis='z', value='{growth}'}}"
+
+
+@pytest.mark.parametrize(("order", "tolerance"), [(3, 1e-6), (4, 1e-8)])
+def test_pull_in_is_a_limit_point(order: int, tolerance: float) -> None:
+    """At p R / (2 mu T) = 0.2: l = 1.28924066670, V = 0.561681678090 T (mu/eps)^(1/2). Errors of a load at its maximum
+    are squares of those of the place."""
+    path = f"path=[{{steps=2, field=0.0}}, {{{at_pole('6.5 mm')}}}]"
+    solution = dielectric_balloon.run(f"discretisation.order={order}", "faces.bottom.voltage=20000", path)
+    limit = solution.critical_points[0]
+    assert (limit.kind, limit.unstable) == ("limit", (0, 1))
+    assert limit.scalars["stretch"] == pytest.approx(1.28924066670, abs=1e-5)
+    unit = 1e-3 * math.sqrt(30e3 / (3.0 * EPSILON_0))
+    assert 20e3 * limit.factor_field == pytest.approx(0.561681678090 * unit, rel=tolerance)
+
+
+@pytest.mark.parametrize(("order", "tolerance"), [(3, 5e-6), (4, 1e-8)])
+def test_largest_pressure_at_a_voltage(order: int, tolerance: float) -> None:
+    """At V = 0.3 T (mu/eps)^(1/2): l = 1.34858204502, p R / (2 mu T) = 0.496876920694."""
+    voltage = 0.3e-3 * math.sqrt(30e3 / (3.0 * EPSILON_0))
+    path = f"path=[{{steps=2, mechanical=0.0}}, {{{at_pole('8 mm')}}}]"
+    loads = ("loads.pressure_bottom=1800", f"faces.bottom.voltage={voltage!r}")
+    solution = dielectric_balloon.run(f"discretisation.order={order}", *loads, path)
+    limit = solution.critical_points[0]
+    assert (limit.kind, limit.unstable) == ("limit", (0, 1))
+    assert limit.scalars["stretch"] == pytest.approx(1.34858204502, abs=1e-4)
+    found = 1800.0 * limit.factor_mechanical * 0.02 / (2.0 * 30e3 * 1e-3)
+    assert found == pytest.approx(0.496876920694, rel=tolerance)

@@ -62,3 +62,7 @@ def test_electrode_and_membrane_attract_each_other_alike(name: str, axis: str) -
     on_shell, on_body = solution[f"force_{axis}"], solution[f"force_body0_{axis}"]
     assert on_shell[-1] < 0.0
     assert on_body == pytest.approx(-on_shell, abs=1e-3 * abs(on_shell[-1]))
+    if axis == "y":
+        turn, back = solution["torque_z"], solution["torque_body0_z"]
+        assert turn[-1] == pytest.approx(0.05 * on_shell[-1], rel=1e-3), "as if in the middle of the strip"
+        assert back == pytest.approx(-turn, abs=1e-3 * abs(turn[-1]))
