@@ -6,9 +6,9 @@ With h = h_0(x) - grad phi the co-energy of free space is, for div h_0 = 0,
                        + int_top phi_t h_0 . n da - int_bottom phi_b h_0 . n da,
 
 the mixed part having been integrated by parts up to the faces of the shell; at infinity it vanishes. So the sources of
-h_0, a line current for one, may pass anywhere but through the shell and the elements that touch it, and h_0 need not be
-resolved by the mesh. Of the second integral only those elements matter: the rest of it does not change. Source: theory page, "Applied
-fields".
+h_0, a line current for one, may pass anywhere but through the shell and the elements that touch it, and h_0 need not
+be resolved by the mesh. Of the second integral only those elements matter: the rest of it does not change. Source:
+theory page, "Applied fields".
 """
 
 from __future__ import annotations

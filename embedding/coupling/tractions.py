@@ -104,9 +104,9 @@ class FaceFlux:
     """How the co-energy of one side answers to the potential of its face, per reference area: ``flux``, b . m on the
     top, - b . m on the bottom.
 
-    Where the applied field varies, the face's multiplier is the derivative of that co-energy at a fixed potential of the
-    change. At a fixed potential of the whole, which the traction is, comes minus the flux times the applied field on
-    top; the field inside the shell carries the difference.
+    Where the applied field varies, the face's multiplier is the derivative of that co-energy at a fixed potential of
+    the change. At a fixed potential of the whole, which the traction is, comes minus the flux times the applied field
+    on top; the field inside the shell carries the difference.
     """
 
     def __init__(self, lagrangian: Lagrangian, face: str) -> None:
@@ -119,7 +119,8 @@ class FaceFlux:
         self._still = GridFunction(trace.space)
         values = {name: unknowns.field(name) for name in unknowns.names} | {"shift": trace.space.TrialFunction()}
         self._form = BilinearForm(trace.space)
-        for term in [*field.side_energies(values, side, field.motion_of(face, values)), field.through_face(face, values)]:
+        terms = field.side_energies(values, side, field.motion_of(face, values))
+        for term in [*terms, field.through_face(face, values)]:
             self._form += Variation(term).Compile()
         mass = BilinearForm(trace.space, symmetric=True)
         trial, test = trace.space.TnT()

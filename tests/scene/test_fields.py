@@ -201,7 +201,7 @@ KINDS = f"must be a table with kind = {ALL_KINDS}"
         ({"shell": shell(relative_permittivity=3), "ambient": {"field": "electric", "feld": 1}}, 'ambient.feld: unknown key: did you mean "field"?'),
         ({"shell": shell(), "faces": {"top": 6e3}}, "faces.top: 6000.0 is not allowed: must be a table with the keys voltage, charge, where"),
         ({"shell": shell(), "faces": {"outer": {"voltage": 1}}}, "faces.outer: unknown key: the keys here are top, bottom, both"),
-        ({"shell": shell(), "solver": Model()}, "solver: a Model is not allowed: must be a table with the keys tolerance, max_iterations, min_step, max_steps, max_arc, acceleration, threads"),
+        ({"shell": shell(), "solver": Model()}, "solver: a Model is not allowed: must be a table with the keys tolerance, max_iterations, min_step, max_steps, max_arc, acceleration, linear, threads"),
         ({"shell": shell(), "name": 3}, "name: 3 is not allowed: must be text on one line, of 1 to 100 printable characters"),
         ({"shell": shell(), "name": " "}, "name:   is not allowed: must be text on one line, of 1 to 100 printable characters"),
         ({"shell": shell(), "lodas": {}}, 'lodas: unknown key: did you mean "loads"?'),
