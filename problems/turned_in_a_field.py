@@ -6,7 +6,7 @@ half a turn, those below it are squeezed.
 Reference: the half circle of radius L / pi: the tip ends at (0, 2 L / pi), up to (pi T / L)^2. The smallest det F of the mesh's motion is
 recorded as ``min_jacobian``; the guard stops at 0.02.
 
-Run: about a minute.
+Run: about ten seconds.
 """
 
 from __future__ import annotations

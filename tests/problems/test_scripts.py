@@ -16,7 +16,7 @@ SCRIPTS = ("plate_traction", "uniaxial_tension", "plate_squeeze", "cylinder_infl
            "dielectric_film", "dielectric_film_held", "membrane_pull_in", "charged_disc", "capacitances",
            "sphere_in_field", "permeable_sphere", "permeable_cylinder",
            "permeable_disc", "magnetised_sphere", "magnetised_disc", "hard_magnetic_cantilever", "hard_magnetic_ring",
-           "inflated_in_a_field", pytest.param("turned_in_a_field", marks=pytest.mark.slow),
+           "inflated_in_a_field", "turned_in_a_field",
            "cantilever_shear", "cantilever_moment", "t_cantilever", "hinged_roof", "cap_snap_through",
            "circular_membrane", "torus_inflation")  # fmt: skip
 
