@@ -34,9 +34,8 @@ def _within_space(scene: Scene) -> Iterator[Problem]:
     for number, body in enumerate(ambient.bodies):
         path = f"ambient.bodies.{number}"
         if isinstance(body, HalfSpace):
-            end = radius if box is None else box[axes - 1]
-            if end is not None and abs(body.level) >= end:
-                reason = f"must lie within {end} m of the origin, where space ends"
+            if box is not None and abs(body.level) >= box[axes - 1]:
+                reason = f"must lie within {box[axes - 1]} m of the origin, where space ends"
                 yield Problem(f"{path}.level", f"{body.level} m is not allowed: {reason}")
         elif _beyond(body, axes, radius, box):
             where = f"a sphere of radius {radius} m" if box is None else "ambient.box"

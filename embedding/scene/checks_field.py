@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from embedding.errors import Problem
+from embedding.scene.bodies import HalfSpace
 from embedding.scene.part import known
 from embedding.scene.shapes import Annulus
 
@@ -20,6 +21,14 @@ CLOSE = 1e-12
 def axes_of(scene: Scene) -> int:
     """How many coordinates count: 2 in plane strain, else 3."""
     return 2 if scene.shell.shape.reductions == ("plane-strain",) else 3
+
+
+def centre_of_space(scene: Scene) -> float:
+    """Where on the last axis the centre of the outer boundary is, in m: the origin, or on the face of a half-space."""
+    ambient = scene.ambient
+    if ambient is None or known(ambient.box) is not None:
+        return 0.0
+    return next((body.level for body in ambient.bodies if isinstance(body, HalfSpace)), 0.0)
 
 
 def varying(scene: Scene) -> bool:
@@ -47,11 +56,13 @@ def _radius(scene: Scene) -> Iterator[Problem]:
     radius = known(scene.ambient.radius) if scene.ambient is not None else None
     if radius is None:
         return
-    axes = axes_of(scene)
-    farthest = max(math.hypot(*point[:axes]) for point in scene.shell.shape.sample_points())
+    last, level = axes_of(scene) - 1, centre_of_space(scene)
+    points = scene.shell.shape.sample_points()
+    farthest = max(math.hypot(*point[:last], point[last] - level) for point in points)
     outside = farthest + scene.shell.thickest / 2
     if radius <= outside * (1 + CLOSE):
-        reason = "the farthest point of the shell from the origin plus half its thickness"
+        centre = "the origin" if not level else "the point below the origin on the half-space"
+        reason = f"the farthest point of the shell from {centre} plus half its thickness"
         yield Problem("ambient.radius", f"{radius} m is not allowed: must be greater than {outside:.6g} m, {reason}")
 
 

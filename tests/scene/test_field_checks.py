@@ -104,7 +104,7 @@ BODIES = [
     ("sphere", electric(bodies=[BALL | {"remanence": [0, 0, 1]}]), 'ambient.bodies.0.remanence: not allowed when ambient.field is "electric": a body has a voltage, charge or relative_permittivity'),
     ("sphere", electric(radius=0.055, bodies=[BALL | DIELECTRIC]), "ambient.bodies.0: not allowed here: it reaches beyond the end of space, a sphere of radius 0.055 m"),
     ("sphere", electric(box=[0.1, 0.1, 0.054], outer="grounded", bodies=[BALL | DIELECTRIC]), "ambient.bodies.0: not allowed here: it reaches beyond the end of space, ambient.box"),
-    ("sphere", electric(radius=0.1, bodies=[FLOOR | {"level": -0.1}]), "ambient.bodies.0.level: -0.1 m is not allowed: must lie within 0.1 m of the origin, where space ends"),
+    ("sphere", electric(radius=0.1, bodies=[FLOOR | {"level": -0.1}]), "ambient.radius: 0.1 m is not allowed: must be greater than 0.1201 m, the farthest point of the shell from the point below the origin on the half-space plus half its thickness"),
     ("sphere", electric(box=[1, 1, 0.1], outer="grounded", bodies=[FLOOR | {"level": -0.2}]), "ambient.bodies.0.level: -0.2 m is not allowed: must lie within 0.1 m of the origin, where space ends"),
     ("sphere", electric(bodies=[BALL | {"voltage": 0, "centre": [0, 0, 0.022]}]), "ambient.bodies.0: not allowed here: the shell is inside it, at x = 0 m, y = 0 m, z = 0.02 m"),
     ("strip", electric(outer="grounded", bodies=[{"kind": "box", "centre": [0, 0, 7], "size": [1, 1, 1], "voltage": 0}]), "ambient.bodies.0: not allowed here: the shell is inside it, at x = 0 m, y = 0 m"),
