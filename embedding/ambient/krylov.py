@@ -48,7 +48,7 @@ def conjugate_gradients(cycle: Cycle, right_side: Any, out: Any, tolerance: floa
         before, remainder = remainder, math.sqrt(abs(squared / first))
         # a negative square: the preconditioner is not definite; no progress: rounding is reached
         if not squared > 0.0 or remainder <= tolerance or remainder > 0.5 * before or count >= most:
-            return Ending(count, remainder if squared > 0.0 else math.nan)
+            return Ending(count, remainder if squared >= 0.0 else math.nan)
         direction.data = better
         while count < most and squared > (tolerance * tolerance) * first:
             count += 1
@@ -63,7 +63,9 @@ def conjugate_gradients(cycle: Cycle, right_side: Any, out: Any, tolerance: floa
             previous, squared = squared, InnerProduct(rest, better)
             if not math.isfinite(squared):
                 return Ending(count, math.nan)
-            direction.data = better + (squared / previous) * direction
+            # in two steps: NGSolve assigns a sum term by term, and would scale what it has just overwritten
+            direction *= squared / previous
+            direction.data += better
 
 
 def gmres(
