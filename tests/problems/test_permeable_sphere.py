@@ -11,12 +11,14 @@ import pytest
 from ngsolve import BND, CF, IfPos, InnerProduct, Integrate, ds, sqrt
 
 from embedding import Listener, Solution
+from embedding.scene.scales import MU_0
 from embedding.shell.kinematics import surface_gradient
 from embedding.solving.events import StepRecord
 from embedding.solving.problem import Problem
 from embedding.solving.state import State
 from problems import permeable_sphere
 from problems.common import thickness_ratio
+from problems.exact.permeable_sphere import PermeableSphere
 from problems.exact.permeable_sphere import permeable_sphere as exact_sphere
 from problems.permeable_sphere import COMPONENTS, FINE, FieldTractions, rigid, rigid_error
 from tests.problems.measures import orders
@@ -268,3 +270,19 @@ def test_field_in_the_cavity(permeability: float) -> None:
         errors.append(abs(permeable_sphere.inner_field(found) / applied - exact))
         assert errors[-1] < max(0.3 * ratio**2 * exact, 1e-5)
     assert permeability == 1e6 or errors[1] < 0.5 * errors[0]
+
+
+GRADIENT = "ambient.applied_field={expression=['-0.5e6*x', '-0.5e6*y', '4e4 + 1e6*z'], unit='A/m'}"
+
+
+@pytest.mark.parametrize("permeability", [2.0, 10.0, 1e3])
+def test_force_in_a_field_gradient(permeability: float) -> None:
+    """mu0 m dH/dz with the moment m in the uniform part of the field, exactly: a linear part has no moment."""
+    ratios, errors = (0.1, 0.05), []
+    for ratio in ratios:
+        solution = permeable_sphere.run(*rigid(ratio, permeability), GRADIENT, "ambient.radius=160 mm", *FINE)
+        radius = solution.scene.shell.shape.size
+        sphere = PermeableSphere(radius * (1 - ratio / 2), radius * (1 + ratio / 2), permeability, 4e4, MU_0)
+        errors.append(abs(solution["force_z"][-1] / (MU_0 * sphere.moment * 1e6) - 1.0))
+    assert errors[0] < 1e-3
+    assert errors[1] < 3e-4
