@@ -29,10 +29,8 @@ def seconds(work: Callable[[], object], repeats: int = 5) -> float:
     return median(times)
 
 
-def measure(shell_size: float, ambient_size: float, interface: str) -> str:
-    """One line of the table."""
-    scene = balloon(shell_size=shell_size, ambient_size=ambient_size, interface=interface)
-    problem = Problem(scene, explain(scene))
+def operations(problem: Problem) -> tuple[Callable[[], object], Callable[[], object]]:
+    """The Poisson solve and the whole step on ``problem``, whose system stays where it is."""
     system = problem.system
     system.load(1.0, 0.5, None)
     system.follow()
@@ -40,6 +38,7 @@ def measure(shell_size: float, ambient_size: float, interface: str) -> str:
     if potential is None:
         raise RuntimeError("the timed scene has a field")
     still = system.unknowns.state.vec.FV().NumPy().copy()
+    step_count = [0]
 
     def step() -> None:
         # A face that moves back and forth by a noticeable amount makes the ambient follow in every step.
@@ -51,12 +50,18 @@ def measure(shell_size: float, ambient_size: float, interface: str) -> str:
         potential.solve()
         system.newton_update()
 
-    step_count = [0]
-    poisson, whole = seconds(potential.solve), seconds(step)
+    return potential.solve, step
+
+
+def measure(shell_size: float, ambient_size: float, interface: str) -> str:
+    """One line of the table."""
+    scene = balloon(shell_size=shell_size, ambient_size=ambient_size, interface=interface)
+    problem = Problem(scene, explain(scene))
+    poisson, whole = (seconds(work) for work in operations(problem))
     counts = problem.system.unknowns.count
     return (
         f"{interface:7s} mesh {shell_size:g}/{ambient_size:g}: {problem.mesh.ne} tets, {counts['phi']} potential and "
-        f"{system.free_count} joint unknowns: ratio {whole / poisson:.1f}"
+        f"{problem.system.free_count} joint unknowns: ratio {whole / poisson:.1f}"
     )
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from embedding import Ambient, Discretisation, Electrode, Faces, Model, NeoHookean, Scene, Shell, Sphere, Stage
+from embedding import Ambient, Discretisation, Electrode, Faces, Model, NeoHookean, Scene, Shell, Solver, Sphere, Stage
 
 RADIUS = 0.02
 VOLTAGE = 3.5e5
 
 
-def balloon(*, shell_size: float, ambient_size: float = 2.0, interface: str = "auto", steps: int = 4) -> Scene:
+def balloon(
+    *, shell_size: float, ambient_size: float = 2.0, interface: str = "auto", steps: int = 4, linear: str = "auto"
+) -> Scene:
     """A charged balloon in 3D at order 3; mesh sizes relative to the radius."""
     shell = Shell(shape=Sphere(radius=RADIUS), thickness=1e-3, material=NeoHookean(shear_modulus=3e4))
     return Scene(
@@ -18,4 +20,5 @@ def balloon(*, shell_size: float, ambient_size: float = 2.0, interface: str = "a
         path=(Stage(steps=steps),),
         model=Model(reduction="3d", interface=interface),
         discretisation=Discretisation(order=3, shell_size=shell_size * RADIUS, ambient_size=ambient_size * RADIUS),
+        solver=Solver(linear=linear),
     )

@@ -23,8 +23,8 @@ from embedding.geometry.spaces import Mask, as_bits, scalar_mask
 
 Array = npt.NDArray[np.float64]
 POTENTIAL_TOLERANCE, JOINT_TOLERANCE = 1e-10, 1e-9
-MOST_ITERATIONS, MOST_JOINT = 200, 100
-WORN = 40
+MOST_ITERATIONS, MOST_JOINT = 200, 150
+WORN = 60
 """Iterations of the joint system after which a preconditioner from an earlier state is replaced."""
 
 

@@ -135,6 +135,14 @@ class System:
         """Number of free unknowns of the joint system."""
         return int(self._solver.mask.sum())
 
+    @property
+    def iterations(self) -> tuple[int, int]:
+        """Iterations of the last linear solves, of the potential alone and of the joint system; 0 for direct ones."""
+        potential = self.potential.iterative if self.potential is not None else None
+        joint = self._solver if isinstance(self._solver, JointSolver) else None
+        alone, together = (solver.iterations[-1:] if solver is not None else [] for solver in (potential, joint))
+        return sum(alone), sum(together)
+
     def follow(self) -> bool:
         """Let the ambient's mesh follow the faces; False if elements would turn over."""
         places = {}
