@@ -8,7 +8,7 @@ from embedding.scene.checks_electrodes import inside_only, one_conductor
 
 CLOSED_FACES = 1.6
 """A field on faces at the mid-surface is off by this many thicknesses over size; measured on exact thick spheres."""
-ROOM = 0.6
+ROOM = 2.5
 """Elements along a rim, in thicknesses, that can hold faces opened to the full thickness one element away from it."""
 
 

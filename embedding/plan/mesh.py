@@ -8,6 +8,7 @@ from embedding.geometry.bodies import Body as MeshedBody
 from embedding.geometry.domain import MeshSizes
 from embedding.plan.decisions import Decision
 from embedding.plan.far_field import choose_far_field
+from embedding.plan.field import ROOM
 from embedding.scene import Ambient, Body, BoxBody, CylinderBody, HalfSpace, Scene, SphereBody
 
 SHELL_SIZE = {"3d": 0.4, "axisymmetric": 0.2, "plane-strain": 0.2}
@@ -43,8 +44,8 @@ def choose_sizes(scene: Scene, reduction: str, *, meshed: bool) -> tuple[MeshSiz
 def _at_rims(scene: Scene, reduction: str, shell: float) -> tuple[tuple[tuple[str, float], ...], Decision]:
     """Smaller elements along all edges, that leave room for opened faces."""
     thickness = scene.shell.thickest / scene.shell.shape.size
-    size = min(shell, max(AT_RIMS[reduction] * shell, thickness))
-    reason = "the field is singular at a rim; no smaller than the thickness, for the faces that meet there"
+    size = min(shell, max(AT_RIMS[reduction] * shell, 1.2 * ROOM * thickness))
+    reason = "the field is singular at a rim; no smaller than three thicknesses, for the faces that meet there"
     edges = tuple((edge, size) for edge in scene.shell.shape.edges)
     return edges, Decision("mesh at rims", f"{size:.3g} x size", reason)
 
