@@ -147,7 +147,7 @@ class JointSolver(LinearSolver):
             work[:] = 0.0
             work.FV().NumPy()[self._far] = values
             image.data = self._form.mat * work
-            work.data = self._near.solve(image)
+            work.data = self._near.roughly(image)
             rows = image.FV().NumPy()[self._far]
             image.data = self._form.mat * work
             return np.asarray(rows - image.FV().NumPy()[self._far])

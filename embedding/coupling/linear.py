@@ -126,6 +126,18 @@ class DirectSolver(LinearSolver):
         super().factor(form)
         self._inverse, self._method = None, ""
 
+    def roughly(self, right_side: Any) -> Any:
+        """The update that the factors at hand give, neither checked nor refined: for iterations that check themselves.
+
+        Raises:
+            LinearSolverError: there are no factors yet, and no solver is accurate.
+        """
+        if self._inverse is None:
+            return self.solve(right_side)
+        update = right_side.CreateVector()
+        update.data = self._inverse * right_side
+        return update
+
     def _kept_part(self, load: Any) -> Any:
         update = load.CreateVector()
         update[:] = 0.0
