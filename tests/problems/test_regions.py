@@ -159,7 +159,11 @@ def test_what_a_law_in_pieces_tells(bands: str) -> None:
         ([{"faces": ["centre"], "density": 1}], 'shell.regions.0.faces.0: "centre" is not allowed: must be "left", "middle" or "right"'),
         ([{"faces": ["left"], "density": 1}, {"faces": ["right", "left"], "density": 2}], 'shell.regions.1.faces.1: "left" is not allowed: it is part of another region'),
         ([{"faces": []}], 'shell.regions.0.faces: [] is not allowed: must be a list of different names of faces, such as ["web"]'),
-        ([{"faces": ["left"]}], "shell.regions.0.faces: [left] is not allowed: a region needs a thickness, a material or another property of its own"),
+        (
+            [{"faces": ["left"]}],
+            "shell.regions.0.faces: [left] is not allowed: a region needs a thickness, a material or another property of"
+            " its own",
+        ),
         ([{"faces": ["left"], "thickness": {"expression": "x - 0.01"}}], "shell.regions.0.thickness.expression: x - 0.01 is not allowed: must be greater than 0, and is -0.01 m at x = 0 m, y = 0 m, z = 0 m"),
         ([{"faces": ["left"], "material": {"law": "st-venant-kirchhoff", "youngs_modulus": 1e9, "poisson_ratio": 0.3}}], 'shell.regions.0.material.law: "st-venant-kirchhoff" is not allowed beside "neo-hookean": incompressible laws and st-venant-kirchhoff cannot be mixed in one shell'),
     ],
