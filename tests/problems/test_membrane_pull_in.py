@@ -26,7 +26,7 @@ def solved(name: str) -> tuple[tuple[Solution, ...], np.ndarray]:
 
 @pytest.mark.parametrize(("name", "published"), [(STRIP, 1.400016), (DISC, 0.789229)])
 def test_the_limit_of_a_thin_gap(name: str, published: float) -> None:
-    """J. A. Pelesko, D. H. Bernstein, Modeling MEMS and NEMS. Order 2 up to a logarithm. The extrapolation from g = L/20
+    """J. A. Pelesko, D. H. Bernstein, Modeling MEMS and NEMS. Order 2 up to a logarithm. The extrapolation from L/20
     leaves a tenth of the correction there, 7e-4: the mesh's errors of 1e-4 in the loads come out of it trebled."""
     loads = [membrane_pull_in.pull_in(solution) for solution in solved(name)[0]]
     limit, order = membrane_pull_in.extrapolated(loads)
