@@ -23,6 +23,8 @@ from embedding.geometry.spaces import Mask, as_bits, scalar_mask
 
 Array = npt.NDArray[np.float64]
 POTENTIAL_TOLERANCE, JOINT_TOLERANCE = 1e-10, 1e-9
+SAFE = 0.1
+"""A second pass of the joint system aims at this part of what it must reach."""
 MOST_ITERATIONS, MOST_JOINT = 200, 150
 WORN = 60
 """Iterations of the joint system after which a preconditioner from an earlier state is replaced."""
@@ -118,29 +120,32 @@ class JointSolver(LinearSolver):
         if size == 0.0:
             return update
         rest.data = load
-        for _ in range(2):  # once more if rounding in the elimination asks for it
-            update.data += self._eliminated(rest)
+        self.iterations.append(0)
+        tolerance = JOINT_TOLERANCE
+        for _ in range(2):  # once more if rounding near the shell asks for it, as far as it does
+            update.data += self._eliminated(rest, tolerance)
             rest.data = load - self._form.mat * update
             remainder = float(np.linalg.norm(rest.FV().NumPy()[self.kept])) / size
             if not remainder > ACCURATE:
                 break
+            tolerance = max(JOINT_TOLERANCE, SAFE * ACCURATE / remainder)
         if not (remainder < ACCURATE or self._backward_stable(load, update)):
             raise LinearSolverError(_failure("GMRES", Ending(self.iterations[-1], remainder)))
         return update
 
-    def _eliminated(self, load: Any) -> Any:
+    def _eliminated(self, load: Any, tolerance: float) -> Any:
         """The solution for ``load``, by elimination of what is near the shell."""
         near, image = self._near.solve(load), load.CreateVector()
         image.data = load - self._form.mat * near
         right_side = image.FV().NumPy()[self._far]
         far = load.CreateVector()
         far[:] = 0.0
-        far.FV().NumPy()[self._far] = self._far_part(right_side, far)
+        far.FV().NumPy()[self._far] = self._far_part(right_side, far, tolerance)
         image.data = load - self._form.mat * far
         far.data += self._near.solve(image)
         return far
 
-    def _far_part(self, right_side: Array, work: Any) -> Array:
+    def _far_part(self, right_side: Array, work: Any, tolerance: float) -> Array:
         image = work.CreateVector()
 
         def operator(values: Array) -> Array:
@@ -162,9 +167,9 @@ class JointSolver(LinearSolver):
                 cycle.apply(inner, outer)
                 return np.asarray(-outer.FV().NumPy()[self._in_potential])
 
-            found, ending = gmres(operator, better, right_side, JOINT_TOLERANCE, MOST_JOINT if renewed else WORN)
-            self.iterations.append(ending.iterations)
-            if ending.remainder <= JOINT_TOLERANCE:
+            found, ending = gmres(operator, better, right_side, tolerance, MOST_JOINT if renewed else WORN)
+            self.iterations[-1] += ending.iterations
+            if ending.remainder <= tolerance:
                 return found
         raise LinearSolverError(_failure("GMRES", ending))
 
