@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import netgen.meshing as netgen
@@ -32,6 +33,7 @@ from embedding import (
     solve,
 )
 from embedding.geometry import domain as domains
+from embedding.geometry.meshing import Meshed
 from embedding.scene import EPSILON_0
 from embedding.solving.driver import Run
 from embedding.solving.problem import Problem
@@ -157,9 +159,9 @@ def test_units_do_not_matter(length: float, stress: float, reduction: str) -> No
 # -- numbering
 
 
-def renumbered(mesh: Mesh, seed: int) -> Mesh:
-    """The same flat surface mesh with points and elements in another order."""
-    old, new = mesh.ngmesh, netgen.Mesh(dim=3)
+def renumbered(meshed: Meshed, seed: int) -> Meshed:
+    """The same flat surface mesh, a shell alone, with points and elements in another order."""
+    old, new = meshed.mesh.ngmesh, netgen.Mesh(dim=3)
     rng = np.random.default_rng(seed)
     points = list(old.Points())
     order = rng.permutation(len(points))
@@ -175,7 +177,7 @@ def renumbered(mesh: Mesh, seed: int) -> Mesh:
         ends = [place[v.nr - 1] for v in segment.vertices]
         new.Add(netgen.Element1D(ends, index=1))
     new.SetCD2Name(1, "rim")
-    return Mesh(new)
+    return replace(meshed, mesh=Mesh(new))
 
 
 def test_numbering_does_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -190,8 +192,8 @@ def test_numbering_does_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
     same(plain[1], shuffled[1], 1e-9, "stretch", "stretch_max", "elastic_energy", "min_principal_stress")
 
 
-def on_mesh(scene: Scene, mesh: Mesh, monkeypatch: pytest.MonkeyPatch) -> tuple[Problem, Solution]:
-    monkeypatch.setattr(domains.meshing, "mesh", lambda shape, reduction, sizes: mesh)
+def on_mesh(scene: Scene, meshed: Meshed, monkeypatch: pytest.MonkeyPatch) -> tuple[Problem, Solution]:
+    monkeypatch.setattr(domains.meshing, "mesh", lambda shape, reduction, sizes: meshed)
     run = Run(scene, ())
     return run.problem, run.solve()
 
