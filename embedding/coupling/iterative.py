@@ -140,13 +140,13 @@ class JointSolver(LinearSolver):
         right_side = image.FV().NumPy()[self._far]
         far = load.CreateVector()
         far[:] = 0.0
-        far.FV().NumPy()[self._far] = self._far_part(right_side, far, tolerance)
+        far.FV().NumPy()[self._far] = self._far_part(right_side, tolerance)
         image.data = load - self._form.mat * far
         far.data += self._near.solve(image)
         return far
 
-    def _far_part(self, right_side: Array, work: Any, tolerance: float) -> Array:
-        image = work.CreateVector()
+    def _far_part(self, right_side: Array, tolerance: float) -> Array:
+        work, image = (self._form.mat.CreateColVector() for _ in range(2))
 
         def operator(values: Array) -> Array:
             work[:] = 0.0

@@ -101,6 +101,18 @@ def test_a_load_without_a_potential() -> None:
     assert np.linalg.norm(found - known) < 1e-6 * np.linalg.norm(known)
 
 
+def test_small_loads_are_solved_as_well_as_large_ones() -> None:
+    """A linear solver does not know units: the last residuals of Newton's method are 1e-12 of the first."""
+    problem = iterating("3d", "conductor")
+    distort(problem)
+    load = problem.system.residual()
+    problem.system.linearise()
+    large = np.array(problem.system.solve(load).FV().NumPy())
+    load *= 1e-10
+    small = 1e10 * problem.system.solve(load).FV().NumPy()
+    assert np.linalg.norm(small - large) < 1e-7 * np.linalg.norm(large)
+
+
 def test_the_charge_of_a_sphere_in_free_space() -> None:
     """Q = 4 pi R V (eps0 = 1) of a sphere of radius R, counted over the whole sphere. Robin's condition is exact for a
     net charge, what is left is the mesh's error."""
