@@ -124,6 +124,18 @@ def disc_pull_in() -> PullIn:
     return PullIn(centre, disc_load(centre))
 
 
+def fringe(limit: PullIn) -> float:
+    """a in the pull-in of a small gap, load {1 + a (g/L)^2 ln(L/g) + O(g/L)^2}: 3 load / pi^2, strip and disc.
+
+    On its upper face, far from the edge in gaps, a membrane beside a plane at 0 has the field V / (pi s) at the
+    distance s from the edge, and a pressure there of (g / pi s)^2 times that of the gap. At the fold the load rises
+    by the mean of this with the weight f = du/dcentre over that of (1 + u)^-2. f vanishes like s on the edge: a
+    logarithm, cut off at s = g. The second mean is, with the field x . grad u in Green's formula beside f, the edge's
+    f' u' / 2 load times x; and x u' = 2/3 on the edge of every u = (1 - c) h(k x) - 1 whose load k^2 / h^3 is largest.
+    """
+    return 3.0 * limit.load / math.pi**2
+
+
 def centre_at(load: float, body: Literal["plate", "strip", "disc"], branch: Branch = "stable") -> float:
     """Deflection of the centre over the gap at a held voltage; ValueError above the pull-in.
 

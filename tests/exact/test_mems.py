@@ -77,3 +77,21 @@ def test_small_loads_are_linear() -> None:
         mems.disc_load(0.999)
     with pytest.raises(ValueError, match="ends"):
         mems.strip_shape(0.1, 0.6)
+
+
+@pytest.mark.parametrize("body", ["strip", "disc"])
+def test_the_weight_of_the_fringes(body: str) -> None:
+    """The two means of `fringe`, from differences of shapes about the fold: f = du/dcentre."""
+    limit, shape, half = {
+        "strip": (mems.strip_pull_in(), mems.strip_shape, 0.5), "disc": (mems.disc_pull_in(), mems.disc_shape, 1.0),
+    }[body]  # fmt: skip
+    nodes, weights = np.polynomial.legendre.leggauss(24)
+    x, w, step = half * (nodes + 1.0) / 2.0, half * weights / 2.0, 1e-5
+
+    def mode(x: float) -> float:
+        return (shape(limit.centre + step, x) - shape(limit.centre - step, x)) / (2.0 * step)
+
+    measure = x if body == "disc" else np.ones(24)
+    mean = w @ (measure * [mode(p) / (1.0 + shape(limit.centre, p)) ** 2 for p in x])
+    at_edge = (mode(half) - mode(half - 1e-4)) / 1e-4
+    assert mems.fringe(limit) == pytest.approx(-at_edge / (np.pi**2 * mean), rel=1e-3)
