@@ -40,6 +40,16 @@ def plate_load(deflection: float) -> float:
     return deflection * (1.0 - deflection) ** 2
 
 
+def plate_fringe() -> PullIn:
+    """What a gap g adds to `PLATE`, in g/a, for an electrode of radius a with an upright wall, beside a wider plate.
+
+    Its wall at right angles to the plate has the charge (2 eps V / pi) ln(1/h) per length of its edge and more that
+    does not depend on h = g - x: a force of 4 h / (pi a) times that of the gap. Then k x h^2 / (1 + 4 h / (pi a)) is
+    largest at x/g = 1/3 + 8 g / (27 pi a), by 8 g / (3 pi a) less.
+    """
+    return PullIn(8.0 / (27.0 * math.pi), -8.0 / (3.0 * math.pi) * PLATE.load)
+
+
 def strip_load(centre: float) -> float:
     """Load of the strip that holds the centre c: 2 I^2, I = (1 - c)^(1/2) [c^(1/2) + (1 - c) artanh(c^(1/2))].
 
