@@ -59,7 +59,7 @@ class PotentialSpaces:
         self.free_phi: Mask = as_mask(self.phi.FreeDofs()) & ~held
         self.jump: TraceSpace | None = None
         if electrodes.jump_exists:
-            plateaus = (_covered(domain, electrodes),) if electrodes.other is not None else ()
+            plateaus = (domain.patch(electrodes.where),) if electrodes.other is not None else ()
             reach = domain.materials(electrodes.lifted)
             self.jump = TraceSpace(domain.mesh, order, vector=False, reach=reach, plateaus=plateaus)
             self.jump.fix(0, _odd(self.jump.scalar, odd_planes) | domain.rim_dofs(self.jump.scalar))
@@ -73,7 +73,7 @@ class PotentialSpaces:
         electrodes, base = self.electrodes, self.electrodes.base
         regions, sources, labels = [], [], []
         if base is not None:
-            regions.append(_covered(domain, electrodes))
+            regions.append(domain.patch(electrodes.where))
             sources.append(_with_other(base, electrodes.other))
             labels.append("shell")
         for number, body in enumerate(bodies):
@@ -92,7 +92,7 @@ class PotentialSpaces:
         other, jump = self.electrodes.other, self.jump
         if other is None or jump is None:
             return
-        number = jump.plateau_unknown(_covered(domain, self.electrodes))
+        number = jump.plateau_unknown(domain.patch(self.electrodes.where))
         conductor = Conductor("jump", "jump", number, self.electrodes.jump, other.charge)
         self.conductors.append(conductor)
         if conductor.voltage is not None:
@@ -154,14 +154,6 @@ def _with_other(base: Source, other: Source | None) -> Source:
     if base.charge is None or other is None:
         return base
     return Source(charge=base.charge + (other.charge or 0.0))
-
-
-def _covered(domain: Domain, electrodes: Electrodes) -> Any:
-    """The part of the shell that carries electrodes."""
-    if not electrodes.where:
-        return domain.shell
-    regions = [domain.face(name) for name in electrodes.where]
-    return sum(regions[1:], regions[0])
 
 
 def _odd(space: Any, odd_planes: tuple[str, ...]) -> Mask:

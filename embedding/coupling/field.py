@@ -127,8 +127,19 @@ class FieldEnergies:
             terms += [self.through_face(name, values)] if field.varying is not None else []
         terms += self._far_energies(values) + self._solid_energies(values)
         if "jump" in values and (field.matter.contrast is not None or field.matter.remanence is not None):
-            terms.append(self._inside_shell(values) * self.domain.surface())
+            energy = self._inside_shell(values)
+            terms += [energy * integral for integral in self._inside_integrals()]
         return terms
+
+    def _inside_integrals(self) -> list[Any]:
+        """What integrates the field inside the shell. Between electrodes the jump is one number, and the quadrature is
+        that of the elastic energy: in a slack membrane the two stresses cancel, and must do so at every point."""
+        domain, electrodes = self.domain, self.field.electrodes
+        if electrodes.other is None:
+            return [domain.potential_surface()]
+        between = domain.patch(electrodes.where)
+        bare = [domain.potential_surface(domain.shell - between)] if electrodes.where else []
+        return [domain.surface(between), *bare]
 
     def through_face(self, name: str, values: dict[str, Any]) -> Any:
         """The mixed part of a varying applied field and the potential, on the face ``name``."""
@@ -139,7 +150,7 @@ class FieldEnergies:
         potential = potential + (_trace(values["shift"]) if "shift" in values else 0.0)
         face = Face(domain.reduction, domain.normal, y, gradient, self.axial)
         energy = face_energy(domain.reduction, face, potential, self.given_at(domain.reduction.position + y))
-        return (1.0 if name == "t" else -1.0) * field.liquids.get(side, 1.0) * energy * domain.surface()
+        return (1.0 if name == "t" else -1.0) * field.liquids.get(side, 1.0) * energy * domain.potential_surface()
 
     def given_at(self, place: Any) -> Any:
         """The applied field at a place (mesh components)."""

@@ -124,7 +124,7 @@ class FaceFlux:
             self._form += Variation(term).Compile()
         mass = BilinearForm(trace.space, symmetric=True)
         trial, test = trace.space.TnT()
-        mass += domain.reduction.measure * trial.Trace() * test.Trace() * domain.surface()
+        mass += domain.reduction.measure * trial.Trace() * test.Trace() * domain.potential_surface()
         mass.Assemble()
         self._inverse = mass.mat.Inverse(as_bits(trace.free), inverse="sparsecholesky")
 

@@ -182,6 +182,11 @@ class Domain:
                 bits.Set(boundary)
         return Region(self.mesh, BND, bits)
 
+    def patch(self, names: tuple[str, ...]) -> Any:
+        """The boundary region of the faces of a file with these names; without names, the whole shell."""
+        regions = [self.face(name) for name in names] or [self.shell]
+        return sum(regions[1:], regions[0])
+
     def covered(self, names: tuple[str, ...]) -> GridFunction:
         """1 on the faces of a file with these names, 0 on the others."""
         cover = GridFunction(SurfaceL2(self.mesh, order=0, definedon=self.shell))
@@ -212,14 +217,19 @@ class Domain:
         NGSolve picks the order of a rule from the operators in a form, so that two forms of one energy would be
         integrated differently, and the potential solved alone would not solve the joint system.
         """
-        return dx(materials, intrules=self._rules(ET.TET if self.mesh.dim == 3 else ET.TRIG))
+        return dx(materials, intrules=_rule(ET.TET if self.mesh.dim == 3 else ET.TRIG, self.sizes.order))
 
-    def surface(self, name: str = "shell") -> Any:
-        """The integral over the boundary ``name`` with the same quadrature in every form."""
-        return ds(name, intrules=self._rules(ET.TRIG if self.mesh.dim == 3 else ET.SEGM))
+    def surface(self, where: Any = "shell") -> Any:
+        """The integral over a boundary, by name or region, with the same quadrature in every form."""
+        return ds(where, intrules=_rule(ET.TRIG if self.mesh.dim == 3 else ET.SEGM, self.sizes.order))
 
-    def _rules(self, element: Any) -> dict[Any, Any]:
-        return {element: IntegrationRule(element, 2 * self.sizes.order)}
+    def potential_surface(self, where: Any = "shell") -> Any:
+        """The integral over a part of the shell of what has products of the potential itself, not of its gradient.
+
+        Of the square of a jump, :meth:`surface` would miss the polynomial of highest degree that is zero at all its
+        points. In a shell of high permeability that jump would cost nothing where all others cost very much.
+        """
+        return ds(where, intrules=_rule(ET.TRIG if self.mesh.dim == 3 else ET.SEGM, self.sizes.potential_order))
 
     def rim_indicator(self, names: tuple[str, ...]) -> Any:
         """1 on the edges ``names`` of the shell, 0 on every other element edge, for element-boundary integrals."""
@@ -238,6 +248,11 @@ class Domain:
     def shell_integral(self, values: Any) -> float:
         """Integral of ``values`` over the reference mid-surface of the whole body (plane strain: per length)."""
         return float(Integrate(CF(values) * self.reduction.measure * self.surface(), self.mesh))
+
+
+def _rule(element: Any, degree: int) -> dict[Any, Any]:
+    """Exact for products of two polynomials of ``degree`` on a straight element."""
+    return {element: IntegrationRule(element, 2 * degree)}
 
 
 def build(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Domain:

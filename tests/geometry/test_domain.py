@@ -7,7 +7,21 @@ from typing import Any
 
 import numpy as np
 import pytest
-from ngsolve import BND, CF, ET, H1, VOL, GridFunction, InnerProduct, Integrate, IntegrationRule, ds, dx
+from ngsolve import (
+    BND,
+    CF,
+    ET,
+    H1,
+    VOL,
+    BilinearForm,
+    GridFunction,
+    InnerProduct,
+    Integrate,
+    IntegrationRule,
+    SurfaceL2,
+    ds,
+    dx,
+)
 
 from embedding import Plate, Sphere
 from embedding.geometry.domain import Domain, MeshSizes, build
@@ -181,3 +195,20 @@ def test_sides_that_cannot_be_told_apart_are_refused() -> None:
 def test_the_geometry_converges_with_its_order(order: int) -> None:
     errors = [abs(body("octant", size, order).shell_integral(1.0) / (4 * math.pi) - 1) for size in (0.5, 0.25)]
     assert errors[1] < errors[0] / 2 ** (order + 0.5)
+
+
+@pytest.mark.parametrize("name", ["plate", "sphere"])
+def test_no_jump_is_missed(name: str) -> None:
+    """Of any jump, the square: exactly on a flat shell, and that of none is zero on a curved one."""
+    domain = body(name, 0.5, 3)
+    space = SurfaceL2(domain.mesh, order=domain.sizes.potential_order, definedon=domain.shell)
+    trial, test = space.TnT()
+    product = trial.Trace() * test.Trace()
+    found, exact = (
+        BilinearForm(product * integral).Assemble().mat.ToDense().NumPy()
+        for integral in (domain.potential_surface(), ds("shell", bonus_intorder=8))
+    )
+    largest = np.abs(exact).max()
+    if name == "plate":
+        assert np.abs(found - exact).max() < 1e-13 * largest
+    assert np.linalg.eigvalsh(found).min() > 0.5 * np.linalg.eigvalsh(exact).min()

@@ -26,9 +26,7 @@ def test_held_permeable_tube(permeability: float) -> None:
         cavity = permeable_cylinder.inner_field(found) / permeable_cylinder.exact(scene).inner_field - 1.0
         return permeable_cylinder.error(scene, found) | {"cavity": abs(cavity)}
 
-    # At 1e6 the cavity's field is 1e-5 of the applied one: rounding and the solver's tolerance show in it.
-    tolerance = 1e-5 if permeability == 1e6 else 1e-6
     for ratio in (0.2, 0.05):
-        assert max(errors(ratio, *permeable_cylinder.FINE).values()) < tolerance
+        assert max(errors(ratio, *permeable_cylinder.FINE).values()) < 5e-7
     coarse, fine = (errors(0.1, "discretisation.order=4", f"discretisation.shell_size={h} mm") for h in (8, 4))
-    assert all(fine[name] < 0.125 * coarse[name] for name in ("p_t", "tau_t", "p_b", "tau_b"))
+    assert all(fine[name] < 0.1 * coarse[name] for name in ("p_t", "tau_t", "p_b", "tau_b"))
