@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from ngsolve import BilinearForm, FESpace, Grad, GridFunction, Id, Variation, dx
+from ngsolve import BilinearForm, FESpace, Grad, GridFunction, Id, Variation
 
 from embedding.ambient.inverse import Inverter
 from embedding.ambient.motion import AmbientMotion, extension_energy
@@ -34,9 +34,10 @@ class Extension:
         form = BilinearForm(space, symmetric=True)
         for side, y in zip(faces, displacements, strict=True):
             strain = extension_energy(Id(domain.mesh.dim) + Grad(w) + Grad(y))
-            form += Variation(strain * dx(domain.near(side), intrules=motion.rule)).Compile()
+            form += Variation(strain * domain.volume(domain.near(side), motion.rule)).Compile()
         for far in filter(None, map(domain.far, faces)):
-            form += Variation(extension_energy(Id(domain.mesh.dim) + Grad(w)) * dx(far, intrules=motion.rule)).Compile()
+            strain = extension_energy(Id(domain.mesh.dim) + Grad(w))
+            form += Variation(strain * domain.volume(far, motion.rule)).Compile()
         form.AssembleLinearization(GridFunction(space).vec)
         self._matrix = form.mat
         free = np.zeros(space.ndof, bool)

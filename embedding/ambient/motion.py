@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from ngsolve import (
+    BND,
     ET,
     BilinearForm,
     Det,
@@ -26,7 +27,6 @@ from ngsolve import (
     IntegrationRule,
     Variation,
     VectorH1,
-    dx,
     log,
     specialcf,
 )
@@ -58,14 +58,17 @@ class AmbientMotion:
 
     ``faces`` holds the space of the face's displacement for each side ("outside", "inside"). Around an open shell both
     sides are one space; a closed one parts them, and each side has a motion of its own. ``linear`` says how its
-    equations are solved.
+    equations are solved. On a mesh made around a deformed shell, y is the displacement from there, and ``rest`` that of
+    the shell there, by side.
     """
 
     def __init__(self, domain: Domain, faces: Mapping[str, Any], linear: Linear = "auto") -> None:
         mesh = domain.mesh
+        self._domain = domain
         self.materials = "|".join(domain.materials(side) for side in faces)
         interior = VectorH1(mesh, order=INTERIOR_ORDER, definedon=mesh.Materials(self.materials))
         self.y = {side: GridFunction(space) for side, space in faces.items()}
+        self.rest = {side: _rest(domain, y) for side, y in self.y.items()}
         self.w = GridFunction(interior)
         self._settled = np.zeros(self._face().size)
         self._assembled_at = self._settled.copy()
@@ -76,7 +79,7 @@ class AmbientMotion:
         self._form = BilinearForm(interior, symmetric=True)
         for materials, y in self._parts(domain):
             strain = extension_energy(Id(mesh.dim) + (Grad(trial) if y is None else Grad(y) + Grad(trial)))
-            self._form += Variation(strain * dx(materials, intrules=self.rule)).Compile()
+            self._form += Variation(strain * domain.volume(materials, self.rule)).Compile()
         self.free = as_bits(_interior_mask(domain, interior))
         self.linear, self._inverter = linear, Inverter(interior, self.free, linear)
         self._samples = [
@@ -101,7 +104,8 @@ class AmbientMotion:
     @property
     def min_jacobian(self) -> float:
         """Smallest det F over the sample points (1 for the undeformed mesh)."""
-        return min(float(np.min(jacobian(points))) for jacobian, points in self._samples)
+        with self._domain.in_ambient():
+            return min(float(np.min(jacobian(points))) for jacobian, points in self._samples)
 
     def vectors(self) -> list[Any]:
         """The vectors that make up the state of the motion: faces, interior, and where the faces were last settled."""
@@ -114,7 +118,7 @@ class AmbientMotion:
         """Move the faces to the displacements ``faces``, unknowns by side; False (and nothing moved) if elements would
         turn over."""
         saved = [vector.copy() for vector in self.vectors()]
-        start, target = self._face(), np.concatenate([faces[side] for side in self.y])
+        start, target = self._face(), np.concatenate([faces[side] - self._at_rest(side) for side in self.y])
         if np.abs(target - self._settled).max(initial=0.0) <= self._noticeable and self._place(target):
             return True
         substeps = 1
@@ -126,6 +130,10 @@ class AmbientMotion:
             substeps *= 4
         self._restore(saved)
         return False
+
+    def _at_rest(self, side: str) -> Any:
+        rest = self.rest[side]
+        return 0.0 if rest is None else rest.vec.FV().NumPy()
 
     def _walk(self, start: Any, target: Any, substeps: int) -> bool:
         """Move the faces in equal substeps, the interior with them."""
@@ -181,15 +189,19 @@ class AmbientMotion:
     def _descend(self) -> bool:
         """One step with the matrix at hand, halved until it lowers the energy; False if it is not worth another."""
         step, size = self._preconditioned_residual()
-        before, energy = self.w.vec.FV().NumPy().copy(), self._form.Energy(self.w.vec)
+        before, energy = self.w.vec.FV().NumPy().copy(), self._energy()
         if not math.isfinite(size):
             return False
         for halving in range(MOST_HALVINGS):
             self.w.vec.FV().NumPy()[:] = before - 0.5**halving * step.FV().NumPy()
-            if self.min_jacobian > GUARD and self._form.Energy(self.w.vec) < energy:
+            if self.min_jacobian > GUARD and self._energy() < energy:
                 return bool(size * size > (LOOSE if self.min_jacobian > COMFORTABLE else SETTLED) * energy)
         self.w.vec.FV().NumPy()[:] = before
         return False
+
+    def _energy(self) -> float:
+        with self._domain.in_ambient():  # NGSolve's energies know only of the mesh's own deformation
+            return float(self._form.Energy(self.w.vec))
 
     def _relax(self) -> float:
         """One step with the matrix at hand; returns by what factor it changed the residual, in that matrix's norm."""
@@ -207,6 +219,15 @@ class AmbientMotion:
 
 def _sampling(dimension: int, order: int) -> IntegrationRule:
     return IntegrationRule(ET.TET if dimension == 3 else ET.TRIG, order)
+
+
+def _rest(domain: Domain, y: GridFunction) -> GridFunction | None:
+    """The displacement of the shell at which the mesh was made, in the space of ``y``; None where that is none."""
+    if domain.base is None:
+        return None
+    rest = GridFunction(y.space)
+    rest.Set(domain.base.displacement, BND, definedon=domain.shell)
+    return rest
 
 
 def _interior_mask(domain: Domain, interior: Any) -> Any:

@@ -10,6 +10,7 @@ et al., VTK file formats, section "Lagrange cells"; classes ``vtkHigherOrderCurv
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from functools import cached_property
 from typing import Any
 
@@ -87,14 +88,23 @@ class LagrangeBlock:
     Parameters: ``mesh`` of dimension 2 or 3 made of segments, triangles and tetrahedra; ``region`` of
     codimension 0 or 1 (an NGSolve ``Region``); ``order`` of the cells; ``continuous`` merges the nodes that
     cells share (a field that jumps between cells is then averaged there), else every cell has its own;
-    ``embed`` maps mesh coordinates (n, d) to three-dimensional space (n, 3).
+    ``embed`` maps mesh coordinates (n, d) to three-dimensional space (n, 3); functions are evaluated inside
+    the context that ``within`` makes.
 
     Attributes: ``points`` (n, 3), ``cells`` (cells, nodes of a cell), ``cell_type`` (VTK's number),
     ``order``. Raises ArchiveError if the region has no elements or other than simplicial ones.
     """
 
-    def __init__(self, mesh: Any, region: Any, order: int, continuous: bool, embed: Callable[[Floats], Floats]) -> None:
-        self.mesh, self.region, self.order = mesh, region, order
+    def __init__(
+        self,
+        mesh: Any,
+        region: Any,
+        order: int,
+        continuous: bool,
+        embed: Callable[[Floats], Floats],
+        within: Callable[[], AbstractContextManager[None]] = nullcontext,
+    ) -> None:
+        self.mesh, self.region, self.order, self._within = mesh, region, order, within
         codimension = {VOL: 0, BND: 1}.get(region.VB())
         if codimension is None:
             raise ArchiveError(f"a block needs a region of codimension 0 or 1, not {region.VB()}")
@@ -113,7 +123,8 @@ class LagrangeBlock:
             self._first = self.cells.ravel()
         self._sharing = np.bincount(self.cells.ravel()).astype(float)
         position = CF((x, y, z)) if mesh.dim == 3 else CF((x, y))
-        self.points = embed(np.asarray(position(self._places[self._first])))
+        with within():
+            self.points = embed(np.asarray(position(self._places[self._first])))
 
     @property
     def point_count(self) -> int:
@@ -128,7 +139,8 @@ class LagrangeBlock:
         which is the same for a continuous field and several times cheaper. Where the function is not finite
         at a node it is read a little inside the cell instead.
         """
-        sampled = self._evaluate(values, slice(None) if average else self._first)
+        with self._within():
+            sampled = self._evaluate(values, slice(None) if average else self._first)
         if average and len(self._first) < len(self._places):
             nodes = self.cells.ravel()
             sums = [np.bincount(nodes, column, len(self._first)) for column in sampled.T]

@@ -45,22 +45,29 @@ class Recorder(Listener):
         self._writer: ArchiveWriter | None = None
         self._problem: Problem | None = None
         self._cuts: list[dict[str, Any]] = []
+        self._parts = [self._target]
 
     @property
     def path(self) -> Path:
-        """Where the record of the run is, or will be."""
+        """Where the record of the run is, or begins, or will be."""
+        if len(self._parts) > 1:
+            return self._parts[0]
         return self._writer.path if self._writer is not None else self._target
 
     def started(self, problem: Problem) -> None:
         """Build the pictured blocks; nothing is written yet."""
+        self._cuts, self._parts = [], [self._target]
+        self._begin(problem)
+
+    def _begin(self, problem: Problem) -> None:
         order = problem.scene.discretisation.order if self._order is None else self._order
         blocks = {
-            name: LagrangeBlock(problem.mesh, block.region, order, continuous=True, embed=problem.embed)
+            name: LagrangeBlock(problem.mesh, block.region, order, True, problem.embed, block.within)
             for name, block in problem.blocks.items()
         }
         per_length = problem.reduction.name == "plane-strain"
-        self._problem, self._cuts = problem, []
-        self._writer = ArchiveWriter(self._target, blocks, documents(problem), per_length)
+        self._problem = problem
+        self._writer = ArchiveWriter(self._parts[-1], blocks, documents(problem), per_length)
 
     def accepted(self, state: State, record: StepRecord) -> None:
         """Commit the step."""
@@ -68,6 +75,19 @@ class Recorder(Listener):
         if writer is not None and problem is not None:
             fields = [_sampled(writer.blocks[field.block], field, problem) for field in state.fields()]
             writer.append(record, fields, state.vectors())
+
+    def remeshed(self, problem: Problem) -> None:
+        """End this archive; steps on the new mesh go to one beside it, ``<stem>.2<suffix>`` and so on."""
+        if self._writer is None:
+            return
+        if self._writer.committed:
+            number = len(self._parts) + 1
+            self._parts.append(self._target.with_stem(f"{self._target.stem}.{number}"))
+            advice = f"the space around the shell was meshed anew: later steps are in {self._parts[-1].name}"
+            result = {"name": "CONTINUED", "advice": advice, "message": advice}
+            self._writer.finish({"result": result, "error": None, "cost": None, "cuts": self._cuts})
+            self._cuts = []
+        self._begin(problem)
 
     def cut(self, step_number: int, fraction: float, reason: str) -> None:
         """Remember the cut; it is written with the end of the run."""

@@ -90,6 +90,9 @@ class FieldEnergies:
         liquid = self.field.liquids.get(side, 1.0)
         interior = interior or self._interior(side)
         moved, slope = face.value + interior.value, face.gradient + interior.gradient
+        rest = self.motions[side].rest[side]
+        if rest is not None:
+            moved, slope = moved - rest, slope - Grad(rest)
         gradient = self.side_potential_gradient(side, values)
         near = field_energy(domain.reduction, moved, slope, gradient, self.axial)
         if self.field.varying is not None:

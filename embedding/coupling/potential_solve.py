@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from ngsolve import BilinearForm, FESpace, GridFunction, Variation
+from ngsolve import BilinearForm, FESpace, GridFunction, InnerProduct, Variation
 
 from embedding.ambient.inverse import Linear, iterates
 from embedding.ambient.patches import Cycle
@@ -18,6 +18,8 @@ from embedding.geometry.spaces import as_bits
 ENOUGH, MOST_STEPS = 1e-13, 40
 """Newton's method for a saturating shell ends when the energy of a step is this part of the field's, or gives up; where
 the material is linear one step is all."""
+WAY = 8
+"""Points on the way from no potential, for the energy of a saturating shell."""
 
 
 class PotentialSolve:
@@ -31,7 +33,7 @@ class PotentialSolve:
         unknowns, field = lagrangian.unknowns, lagrangian.physics.field
         if unknowns.potential is None or field is None:
             raise RuntimeError("this scene has no potential to solve for")
-        self._spaces, self._unknowns = unknowns.potential, unknowns
+        self._domain, self._spaces, self._unknowns = lagrangian.domain, unknowns.potential, unknowns
         self._field_factor = lagrangian.factors.field
         self._names = list(self._spaces.spaces)
         self._linear = field.matter.saturation is None
@@ -67,7 +69,21 @@ class PotentialSolve:
 
     def energy(self) -> float:
         """Field co-energy of the present state, dimensionless: every side, the far field, the inside of the shell."""
-        return float(self.form.Energy(self._gather().vec))
+        return self._energy(self._gather().vec)
+
+    def _energy(self, vector: Any) -> float:
+        """NGSolve's energies know only of the mesh's own deformation: on a mesh made around a deformed shell the work
+        of the residual along the way from no potential at all is taken, which is exact for a linear material."""
+        if self._domain.base is None:
+            return float(self.form.Energy(vector))
+        part, residual = vector.CreateVector(), vector.CreateVector()
+        part[:] = 0.0
+        energy = float(self.form.Energy(part))
+        for place, weight in zip(*np.polynomial.legendre.leggauss(1 if self._linear else WAY), strict=True):
+            part.data = 0.5 * (1 + place) * vector
+            self.form.Apply(part, residual)
+            energy += 0.5 * weight * float(InnerProduct(residual, vector))
+        return energy
 
     def voltage(self, conductor: Conductor) -> float:
         """The present potential of a conductor (of "jump": of the lifted face over the base)."""
@@ -115,7 +131,7 @@ class PotentialSolve:
 
     def _small(self, step: Any, residual: Any, state: GridFunction) -> bool:
         work = float(np.dot(step.FV().NumPy()[self._free], residual.FV().NumPy()[self._free]))
-        return abs(work) <= ENOUGH * abs(float(self.form.Energy(state.vec)))
+        return abs(work) <= ENOUGH * abs(self._energy(state.vec))
 
     def _gather(self) -> GridFunction:
         for name, component in zip(self._names, self._state.components, strict=True):

@@ -7,6 +7,8 @@ cannot be settled is refused.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -58,6 +60,17 @@ FLATTEST = 1e-6
 
 
 @dataclass(frozen=True)
+class Base:
+    """What a mesh made around a deformed shell starts from: its deformation to the ``reference`` shell, that to the
+    curved ``ambient`` around the shell where it was made, and the ``displacement`` of the shell there; see
+    :mod:`embedding.geometry.remeshing`."""
+
+    reference: GridFunction
+    ambient: GridFunction
+    displacement: GridFunction
+
+
+@dataclass(frozen=True)
 class Domain:
     """A mesh of dimensionless coordinates with everything the physics asks of its geometry."""
 
@@ -68,6 +81,7 @@ class Domain:
     face_numbers: tuple[int, ...] = ()
     rim_vertices: Integers = field(default_factory=lambda: np.zeros(0, np.int64))
     rim_edges: Integers = field(default_factory=lambda: np.zeros((0, 2), np.int64))
+    base: Base | None = None
 
     @property
     def has_ambient(self) -> bool:
@@ -148,7 +162,20 @@ class Domain:
         dimension = self.mesh.dim
         rule = IntegrationRule(ET.TET if dimension == 3 else ET.TRIG, 2 * self.sizes.order)
         points = self.mesh.MapToAllElements(rule, VOL)
-        return bool(np.min(Det(specialcf.JacobianMatrix(dimension))(points)) > 0.0)
+        with self.in_ambient():
+            return bool(np.min(Det(specialcf.JacobianMatrix(dimension))(points)) > 0.0)
+
+    @contextmanager
+    def in_ambient(self) -> Iterator[None]:
+        """Coefficient functions are evaluated in the configuration that the ambient's mesh starts from."""
+        if self.base is None:
+            yield
+            return
+        self.mesh.SetDeformation(self.base.ambient)
+        try:
+            yield
+        finally:
+            self.mesh.SetDeformation(self.base.reference)
 
     @property
     def open(self) -> bool:
@@ -211,13 +238,17 @@ class Domain:
         """Reference unit normal N of the mid-surface, towards the top side."""
         return self.sign * self.reduction.normal
 
-    def volume(self, materials: str) -> Any:
+    def volume(self, materials: str, rules: Any = None) -> Any:
         """The volume integral over ``materials``, with the quadrature every form of the field shares.
 
         NGSolve picks the order of a rule from the operators in a form, so that two forms of one energy would be
-        integrated differently, and the potential solved alone would not solve the joint system.
+        integrated differently, and the potential solved alone would not solve the joint system. ``rules`` by element
+        type take its place.
         """
-        return dx(materials, intrules=_rule(ET.TET if self.mesh.dim == 3 else ET.TRIG, self.sizes.order))
+        rules = rules or _rule(ET.TET if self.mesh.dim == 3 else ET.TRIG, self.sizes.order)
+        if self.base is None:
+            return dx(materials, intrules=rules)
+        return dx(materials, intrules=rules, deformation=self.base.ambient)
 
     def surface(self, where: Any = "shell") -> Any:
         """The integral over a boundary, by name or region, with the same quadrature in every form."""

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from ngsolve import EDGE, VERTEX, NodeId
 
 from embedding.geometry.facets import Facets, Integers
+from embedding.geometry.positions import reference_positions
 from embedding.geometry.spaces import ON_PLANE
 
 
@@ -30,9 +31,9 @@ def facets_on_plane(facets: Facets, axis: int) -> Integers:
 
 def directions(facets: Facets, numbers: Integers) -> npt.NDArray[np.float64]:
     """Unit vectors along the chords of mesh edges, shape (n, 3)."""
-    mesh = facets.mesh
-    ends = [[mesh[v].point for v in mesh[NodeId(EDGE, int(e))].vertices] for e in numbers]
-    along = np.array([np.subtract(b, a) for a, b in ends]).reshape(-1, 3)
+    mesh, places = facets.mesh, reference_positions(facets.mesh)
+    ends = np.array([[v.nr for v in mesh[NodeId(EDGE, int(e))].vertices] for e in numbers], np.int64).reshape(-1, 2)
+    along = places[ends[:, 1]] - places[ends[:, 0]]
     return np.asarray(along / np.linalg.norm(along, axis=1, keepdims=True))
 
 

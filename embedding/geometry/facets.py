@@ -13,10 +13,14 @@ import numpy as np
 import numpy.typing as npt
 from ngsolve import BBND, CF, IntegrationRule, Mesh
 
+from embedding.geometry.positions import reference_positions
+
 Mask = npt.NDArray[np.bool_]
 Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 
+INNER = "inner"
+"""Name of what only looks like an edge of the geometry: a facet of a mesh that another mesh is made around."""
 KINK = np.radians(1.0)
 """Smallest angle, in rad, that counts as a kink where faces of the geometry meet."""
 Local = tuple[tuple[tuple[int, ...], tuple[float, ...]], ...]
@@ -43,8 +47,7 @@ class Facets:
         self.numbers: Integers = np.array([element.nr for element in elements])
         self.corners: Integers = np.array([[v.nr for v in element.vertices] for element in elements])
         self.of_element: Integers = np.array([self._facets(element) for element in elements])
-        points = np.array([mesh[v].point for element in elements for v in element.vertices])
-        self.points: Floats = points.reshape(len(elements), -1, mesh.dim)
+        self.points: Floats = reference_positions(mesh)[self.corners]
 
     def _facets(self, element: Any) -> list[int]:
         """Numbers of the facets of one element, in the order of ``local``."""
@@ -140,7 +143,7 @@ class Facets:
     def on_edges(self) -> Mask:
         """Facets on edges of the geometry (in two dimensions: points where its curves end)."""
         mask = np.zeros(self.count, bool)
-        for element in self.mesh.Elements(BBND):
+        for element in (one for one in self.mesh.Elements(BBND) if one.mat != INNER):
             mask[[edge.nr for edge in element.edges] if self.mesh.dim == 3 else [v.nr for v in element.vertices]] = True
         return mask
 

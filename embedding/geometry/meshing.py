@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import netgen.meshing as netgen
 import numpy as np
+import numpy.typing as npt
 from ngsolve import VOL, Mesh
 
 from embedding.geometry.cut import BOTTOM, RIM, TOP, Cut, Integers
 from embedding.geometry.facets import Facets
+from embedding.geometry.outline import Outline
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.shapes import outline
 from embedding.geometry.sides import signs
 from embedding.geometry.sizes import MeshSizes
 from embedding.geometry.surroundings import raw_mesh
 from embedding.scene import Shape
+
+Floats = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -42,6 +47,20 @@ def mesh(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Meshed:
     if not sizes.radius:
         alone = geometry.mesh(sizes)
         return Meshed(alone, tuple(range(len(alone.GetBoundaries()))), none[:, 0], none)
+
+    def up(facets: Facets) -> Floats:
+        return np.asarray(signs(facets, shape, reduction)[:, None] * facets.at_centres(reduction.normal))
+
+    return around(geometry, reduction, sizes, up)
+
+
+def around(geometry: Outline, reduction: Reduction, sizes: MeshSizes, up: Callable[[Facets], Floats]) -> Meshed:
+    """Mesh of the space around the shell of ``geometry``; ``up`` gives vectors (n, d) towards the top side of the
+    shell's elements.
+
+    Raises:
+        As :func:`mesh`.
+    """
     raw = raw_mesh(geometry, reduction, sizes)
     faces = _faces(raw, reduction)
     trial = Mesh(raw)
@@ -50,10 +69,9 @@ def mesh(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Meshed:
     cut = Cut(elements, facets.corners)
     rim_vertices, rim_edges = cut.rim_vertices, cut.rim_edges
     points = np.array([v.point for v in trial.vertices])
-    up = signs(facets, shape, reduction)[:, None] * facets.at_centres(reduction.normal)
     element, facet = cut.beside
     reach = points[elements[element]].mean(axis=1) - points[facets.corners[facet]].mean(axis=1)
-    sides = cut.sides(np.einsum("ij,ij->i", reach, up[facet]) > 0)
+    sides = cut.sides(np.einsum("ij,ij->i", reach, up(facets)[facet]) > 0)
     materials = np.array([element.mat for element in trial.Elements(VOL)])
     _relabel(raw, _materials(materials, sides, cut.rooms()), reduction)
     return Meshed(Mesh(raw), faces, rim_vertices, rim_edges)

@@ -38,6 +38,14 @@ class SurfaceOutline:
             if edge.name:
                 edge.maxh = sizes.along(edge.name)
 
+    def number(self, sizes: MeshSizes) -> None:
+        """Name and size the faces for a mesh of the space around them."""
+        for number, face in enumerate(self.shape.faces):
+            face.name, face.maxh = f"shell {number}", sizes.shell
+
+    def keep(self, whole: Any) -> None:
+        """Say of the ``whole`` geometry, that the outline is part of, what its mesh must keep."""
+
     def mesh(self, sizes: MeshSizes) -> Mesh:
         """Mesh of the surface alone, as ``shell``.
 
@@ -53,10 +61,12 @@ class SurfaceOutline:
 
 @dataclass(frozen=True)
 class CurveOutline:
-    """Connected OCC ``edges`` in the plane, with the ends of the edges named by ``name``."""
+    """Connected OCC ``edges`` in the plane, with the ends of the edges named by ``name``; edges that are ``kept`` are
+    not divided."""
 
     edges: tuple[Edge, ...]
     name: Callable[[Pnt], str]
+    kept: bool = False
 
     def name_ends(self, shape: Any, sizes: MeshSizes) -> None:
         """Name and size the vertices of ``shape``, those of the curve or of what it became a part of."""

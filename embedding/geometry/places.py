@@ -11,9 +11,10 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from ngsolve import BND, ET, ElementId, Mesh
+from ngsolve import BND, ET, ElementId
 
 from embedding.geometry.domain import Domain
+from embedding.geometry.positions import reference_position
 from embedding.geometry.spaces import Mask, TraceSpace, scalar_mask
 
 Array = npt.NDArray[np.float64]
@@ -69,7 +70,8 @@ def corner(domain: Domain, point: tuple[float, ...]) -> int | None:
     """Number of the mesh vertex of the shell at ``point`` (mesh coordinates of the whole body), None without one."""
     target = locate(domain, point)
     element = domain.mesh[ElementId(BND, target.element)]
-    distances = {v.nr: float(np.linalg.norm(_place(domain.mesh, v) - target.position)) for v in element.vertices}
+    places = {v.nr: reference_position(domain.mesh, v) for v in element.vertices}
+    distances = {number: float(np.linalg.norm(place - target.position)) for number, place in places.items()}
     nearest = min(distances, key=distances.__getitem__)
     return nearest if target.on_surface and distances[nearest] <= CLOSE else None
 
@@ -107,22 +109,18 @@ def displaced(
     return np.array(list(values), dtype=np.int64), np.array(list(values.values()), dtype=np.float64)
 
 
-def _place(mesh: Mesh, vertex: Any) -> Array:
-    return np.asarray(mesh[vertex].point, dtype=np.float64)
-
-
 def _by_distance(domain: Domain, target: Array) -> list[tuple[float, int]]:
     """The shell's elements, each with the least distance it can have from ``target``, the nearest first."""
     mesh, bounds = domain.mesh, []
     for element in domain.shell.Elements():
-        corners = np.array([_place(mesh, v) for v in element.vertices])
+        corners = np.array([reference_position(mesh, v) for v in element.vertices])
         centre = corners.mean(axis=0)
         reach = 1.5 * np.linalg.norm(corners - centre, axis=1).max()  # with room for the bulge
         bounds.append((float(np.linalg.norm(target - centre) - reach), int(element.nr)))
     return sorted(bounds)
 
 
-def _closest(mesh: Mesh, number: int, target: Array) -> SurfacePoint:
+def _closest(mesh: Any, number: int, target: Array) -> SurfacePoint:
     """The point of one curved element closest to ``target``: inside it, or else on one of its edges."""
     element = ElementId(BND, number)
     kind, trafo = mesh[element].type, mesh.GetTrafo(element)
@@ -136,7 +134,7 @@ def _closest(mesh: Mesh, number: int, target: Array) -> SurfacePoint:
     distances = [float(np.linalg.norm(image - target)) for image in images]
     best = int(np.argmin(distances))
     local, position = places[best], images[best]
-    flat = _weights(kind, local) @ np.array([_place(mesh, v) for v in mesh[element].vertices])
+    flat = _weights(kind, local) @ np.array([reference_position(mesh, v) for v in mesh[element].vertices])
     allowed = CLOSE + BULGE * float(np.linalg.norm(position - flat))
     return SurfacePoint(number, tuple(map(float, local)), position, distances[best], allowed)
 

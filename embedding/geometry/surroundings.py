@@ -47,11 +47,11 @@ def raw_mesh(outline: Outline, reduction: Reduction, sizes: MeshSizes) -> netgen
     space = _Space(reduction, sizes)
     if isinstance(outline, SurfaceOutline):
         outline.prepare(sizes)
-        for number, face in enumerate(outline.shape.faces):
-            face.name, face.maxh = f"shell {number}", sizes.shell
+        outline.number(sizes)
         whole = Glue([*space.parts(), outline.shape])
         for face in whole.faces:
             face.name = face.name or "plane"
+        outline.keep(whole)
         geometry = OCCGeometry(whole)
     else:
         geometry = OCCGeometry(_section(outline, space, sizes), dim=2)
@@ -67,6 +67,8 @@ def _section(outline: CurveOutline, space: _Space, sizes: MeshSizes) -> Any:
         if edge.name == "shell":
             edge.maxh = sizes.shell
             outline.name_ends(edge, sizes)
+            if outline.kept:
+                edge.partition = []
     return whole
 
 
@@ -76,8 +78,7 @@ def _wanted(outline: Outline, sizes: MeshSizes) -> netgen.MeshingParameters:
     wanted = netgen.MeshingParameters(maxh=sizes.far, grading=sizes.grading)
     if isinstance(outline, SurfaceOutline):
         alone = outline.mesh(sizes)
-        for number, face in enumerate(outline.shape.faces):
-            face.name = f"shell {number}"
+        outline.number(sizes)
         for point, size in zip(*_local_sizes(alone), strict=True):
             wanted.RestrictH(*point, h=float(size))
     return wanted

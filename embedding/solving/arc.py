@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from embedding.scene import Stage
 from embedding.solving.branches import onto_branch
-from embedding.solving.continuation import Condition, Corrector
+from embedding.solving.continuation import Condition, Corrector, Direction, Metric
 from embedding.solving.critical import Critical, Search
 from embedding.solving.curve import Point
 from embedding.solving.events import Iteration
 from embedding.solving.path import Target
+from embedding.solving.problem import Problem
 from embedding.solving.ramp import step
+from embedding.solving.remeshing import Remeshed
 from embedding.solving.result import Result
 from embedding.solving.session import Session
 from embedding.solving.shell_path import ShellPath
-from embedding.solving.walk import Stride, Walk, start
+from embedding.solving.walk import Stride, Walk, settled, start
 
 FIRST, LARGEST = 0.1, 0.25
 """First step, and largest one, as parts of the stage."""
@@ -34,22 +37,28 @@ RETRIES = 5
 critical points in it."""
 
 
+def _goal(goals: Callable[[], Sequence[Condition]], number: int) -> Condition:
+    return goals()[number]
+
+
 class ArcStage:
     """One stage followed by arc length."""
 
     def __init__(self, session: Session, stage: Stage, begin: Target, end: Target) -> None:
         self.session, self.stage, self.begin, self.end = session, stage, begin, end
-        options = session.scene.solver
-        self.path = ShellPath(session.problem, begin, end, session.newton.clock)
-        most = min(options.max_iterations, MOST_ITERATIONS)
-        self.corrector = Corrector(self.path, options.tolerance, most)
+        self._follow_on(session.problem)
         self._iterations: list[Iteration] = []
         self._started = time.perf_counter()
         self._bifurcations = 0
         self._good: Any = None
 
-    def follow(self, goals: Sequence[Condition]) -> Result:
-        """Walk until every one of ``goals`` has been met, in their order; the last is the stage's end."""
+    def _follow_on(self, problem: Problem) -> None:
+        options = self.session.scene.solver
+        self.path = ShellPath(problem, self.begin, self.end, self.session.newton.clock)
+        self.corrector = Corrector(self.path, options.tolerance, min(options.max_iterations, MOST_ITERATIONS))
+
+    def follow(self, goals: Callable[[], Sequence[Condition]]) -> Result:
+        """Walk until every one of the ``goals`` has been met, in their order; the last is the stage's end."""
         saved = self.path.save()
         try:
             return self._follow(goals)
@@ -57,25 +66,52 @@ class ArcStage:
             self.path.restore(self._good if self._good is not None else saved)
             raise
 
-    def _follow(self, goals: Sequence[Condition]) -> Result:
+    def _follow(self, goals: Callable[[], Sequence[Condition]]) -> Result:
         known = len(self.session.steps)
-        walk = self._launched(goals[0])
+        walk = self._launched(goals()[0])
         if isinstance(walk, Result):
             return walk
         options = self.session.scene.solver
-        for goal in goals:
+        for number in range(len(goals())):
+            goal = goals()[number]
             walk.goal, walk.done = goal, abs(goal.gap(walk.here.values, walk.here.parameter)) == 0.0
             while not walk.done:
                 if len(self.session.steps) - known >= options.max_steps:
                     return Result.MAX_STEPS
                 if walk.here.place > options.max_arc:
                     return Result.MAX_ARC
+                walk.at_once = Result.INVERTED_AMBIENT if self.session.may_remesh else None
                 reason = self._step(walk)
+                faded = self.path.faded
                 if reason is not None:
-                    faded = self.path.faded
                     self.path.restore(walk.here.saved)
+                worn = self.session.worn and not walk.done
+                if worn or (reason is Result.INVERTED_AMBIENT and self.session.may_remesh):
+                    walk, moved = self._remeshed(walk, partial(_goal, goals, number))
+                    reason = None if moved else reason
+                if reason is not None:
                     return Result.FIELD_VANISHED if faded else reason
         return Result.CONVERGED
+
+    def _remeshed(self, walk: Walk, goal: Callable[[], Condition]) -> tuple[Walk, bool]:
+        """The walk on a new mesh of the ambient around its last point; the same one and False if there is none."""
+        here, kept, found = walk.here, (self.path, self.corrector), []
+
+        def settle(problem: Remeshed) -> bool:
+            self._follow_on(problem)
+            if here.tangent is not None and self.path.move(self.path.values(), here.parameter):
+                tangent = Direction(problem.carried(here.tangent.values), here.tangent.parameter)
+                found.extend(settled(self.corrector, Metric(self.path, walk.metric.weight), here, tangent, self._watch))
+            return bool(found)
+
+        if not self.session.remesh(settle):
+            self.path, self.corrector = kept
+            self.path.restore(here.saved)
+            return walk, False
+        metric = Metric(self.path, walk.metric.weight)
+        new = Walk(self.corrector, metric, found[0], goal(), walk.stride, self._watch, self._cut)
+        new.length, new.done, self._good = walk.length, walk.done, found[0].saved
+        return new, True
 
     def _launched(self, goal: Condition) -> Walk | Result:
         """The walk at its first point; out of a singular state (a membrane at rest) the first step is one of load."""

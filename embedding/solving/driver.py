@@ -40,7 +40,8 @@ class Run(Session):
     def __init__(self, scene: Scene, listeners: Sequence[Listener]) -> None:
         self._wall, self._cpu = time.perf_counter(), time.process_time()
         super().__init__(scene, listeners)
-        self._ends = [self._goals(number, stage) for number, stage in enumerate(scene.path)]
+        for number, stage in enumerate(scene.path):
+            self._goals(number, stage)  # refuses what cannot be met before anything is solved
 
     def solve(self) -> Solution:
         """Walk the path to its end or to the first step that cannot be taken."""
@@ -48,8 +49,8 @@ class Run(Session):
             listener.started(self.problem)
         result, error = Result.CONVERGED, None
         try:
-            for stage, goals in zip(self.scene.path, self._ends, strict=True):
-                result = self._stage(stage, goals)
+            for number, stage in enumerate(self.scene.path):
+                result = self._stage(number, stage)
                 if not result.ok:
                     break
             error = estimate_error(self.problem, self.at, self.steps) if result.ok else None
@@ -64,11 +65,11 @@ class Run(Session):
             listener.finished(solution)
         return solution
 
-    def _stage(self, stage: Stage, goals: Sequence[Condition]) -> Result:
+    def _stage(self, number: int, stage: Stage) -> Result:
         start, end = self._stage_start(stage), stage_target(stage, self.full_difference)
         with_field, joint = self.problem.system.physics.field is not None, self.solver is self.newton
         if followed(stage, start, end, with_field=with_field, joint=joint):
-            return ArcStage(self, stage, start, end).follow(goals)
+            return ArcStage(self, stage, start, end).follow(lambda: self._goals(number, stage))
         return ramp(self, stage, start, end, stage.steps or DEFAULT_STEPS)
 
     def _goals(self, number: int, stage: Stage) -> list[Condition]:

@@ -74,5 +74,8 @@ class Listener:
     def cut(self, step_number: int, fraction: float, reason: str) -> None:
         """A load step failed and is retried at ``fraction`` of its planned length."""
 
+    def remeshed(self, problem: Problem) -> None:
+        """The space around the shell has a new mesh: ``problem`` takes the place of the one before."""
+
     def finished(self, solution: Solution) -> None:
         """The path has ended, well or not; ``solution.result`` says which."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,7 +15,7 @@ from embedding.coupling.physics import Physics
 from embedding.coupling.system import System
 from embedding.errors import Problem as SceneProblem
 from embedding.errors import SceneError
-from embedding.geometry.domain import Domain, MeshSizes, build
+from embedding.geometry.domain import Domain, build
 from embedding.geometry.reduction import Reduction
 from embedding.plan.decisions import Plan
 from embedding.scene import InfiniteCylinder, Scales, Scene
@@ -28,25 +30,27 @@ Array = npt.NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Block:
-    """A part of the mesh that results are shown on: ``codim`` 1 is the shell, 0 a side of the ambient."""
+    """A part of the mesh that results are shown on: ``codim`` 1 is the shell, 0 a side of the ambient. Its fields are
+    evaluated inside the context that ``within`` makes."""
 
     name: str
     region: Any
     codim: int
+    within: Callable[[], AbstractContextManager[None]] = nullcontext
 
 
 class Problem:
-    """Everything about one solve that does not change while it runs.
+    """Everything about one solve that does not change while it runs, on the mesh of ``domain`` or a new one.
 
     Raises:
         SceneError: the scene states something that this version cannot model.
     """
 
-    def __init__(self, scene: Scene, plan: Plan, sizes: MeshSizes | None = None) -> None:
+    def __init__(self, scene: Scene, plan: Plan, domain: Domain | None = None) -> None:
         refuse_unmodelled(scene, plan)
         self.scene, self.plan, self.scales = scene, plan, Scales.of(scene)
         self.reduction: Reduction = plan.reduction
-        self.domain: Domain = build(scene.shell.shape, plan.reduction, sizes or plan.sizes)
+        self.domain: Domain = domain or build(scene.shell.shape, plan.reduction, plan.sizes)
         self.system = System(self.domain, physics_of(scene, plan, self.scales, self.domain), scene.solver.linear)
 
     @property
@@ -59,7 +63,7 @@ class Problem:
         """The parts of the mesh that carry fields."""
         blocks = {"shell": Block("shell", self.domain.shell, 1)}
         for side in ("outside", "inside") if self.domain.has_ambient else ():
-            blocks[side] = Block(side, self.mesh.Materials(self.domain.materials(side)), 0)
+            blocks[side] = Block(side, self.mesh.Materials(self.domain.materials(side)), 0, self.domain.in_ambient)
         return blocks
 
     def embed(self, points: Array) -> Array:

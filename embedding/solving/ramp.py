@@ -8,6 +8,7 @@ from embedding.scene import Stage
 from embedding.solving.diagnosis import Landmark, diagnose
 from embedding.solving.events import Iteration
 from embedding.solving.path import Stepper, Target
+from embedding.solving.problem import Problem
 from embedding.solving.result import Result
 from embedding.solving.session import Session
 from embedding.solving.stability import unstable_modes
@@ -20,7 +21,11 @@ def ramp(session: Session, stage: Stage, start: Target, end: Target, steps: int)
     for fraction in stepper.proposals():
         target = end.between(start, fraction)
         reason = step(session, stage, target)
+        if reason is Result.INVERTED_AMBIENT and _remeshed(session):
+            reason, landmark = step(session, stage, target), None
         if reason is None:
+            if session.worn and _remeshed(session):
+                landmark = None
             if landmark is None or stepper.relative_length >= 0.5:
                 landmark = Landmark(session.problem.system.save(), target, fraction)
             stepper.accept()
@@ -29,6 +34,18 @@ def ramp(session: Session, stage: Stage, start: Target, end: Target, steps: int)
         else:
             session.cut(stepper.relative_length, reason.name)
     return Result.CONVERGED
+
+
+def _remeshed(session: Session) -> bool:
+    """Has the ambient a new mesh around the last accepted state now?"""
+    if not session.may_remesh:
+        return False
+
+    def settle(_: Problem) -> bool:
+        outcome = session.solver.solve(lambda iteration: session.iterated(session.at, iteration))
+        return outcome.reason is None
+
+    return session.remesh(settle)
 
 
 def step(session: Session, stage: Stage, target: Target) -> Result | None:
@@ -50,7 +67,7 @@ def step(session: Session, stage: Stage, target: Target) -> Result | None:
         unstable = unstable_modes(system) if session.solver is session.newton else None
         reason = session.accept(stage.name, target, outcome.iterations, started, unstable)
     else:
-        session.detail = outcome.detail
+        session.detail = outcome.detail or session.detail
     if reason is not None:
         session.go_back(saved)
     return reason

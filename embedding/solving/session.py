@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
+from embedding.geometry.remeshing import RemeshingError
 from embedding.plan import explain
 from embedding.scene import Scene
 from embedding.solving.acceleration import ACCELERATORS
@@ -16,6 +17,7 @@ from embedding.solving.events import Iteration, Listener, StepRecord
 from embedding.solving.newton import Newton
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
+from embedding.solving.remeshing import WORN, Remeshed
 from embedding.solving.result import Result
 from embedding.solving.solution import CriticalPoint
 from embedding.solving.stability import countable
@@ -31,16 +33,19 @@ class Session:
 
     def __init__(self, scene: Scene, listeners: Sequence[Listener]) -> None:
         self.scene, self.listeners = scene, listeners
-        self.problem = Problem(scene, explain(scene))
-        self.state = State(self.problem)
-        options = scene.solver
-        self.newton = Newton(self.problem.system, options.tolerance, options.max_iterations, self.state.mean_pressures)
-        self.solver = self._rung()
+        self._work_on(Problem(scene, explain(scene)))
+        self.remeshings, self._meshed_at = 0, 0
         self.steps: list[StepRecord] = []
         self.critical: list[CriticalPoint] = []
         self.iterations = 0
         self.detail = ""
         self.at = Target(0.0, 0.0, None, None if self.full_difference is None else 0.0)
+
+    def _work_on(self, problem: Problem) -> None:
+        self.problem, self.state = problem, State(problem)
+        options = self.scene.solver
+        self.newton = Newton(problem.system, options.tolerance, options.max_iterations, self.state.mean_pressures)
+        self.solver = self._rung()
 
     def _rung(self) -> Newton | Staggered | Once:
         """What solves a load step: the joint Newton method, or what the plan has in its place."""
@@ -67,6 +72,40 @@ class Session:
             return False
         return not self.steps or abs(self.steps[-1].scalars["stretch_max"] - 1.0) < REST
 
+    @property
+    def worn(self) -> bool:
+        """Shall the ambient have a new mesh before the next step?"""
+        return self.may_remesh and self.problem.system.min_jacobian < WORN
+
+    @property
+    def may_remesh(self) -> bool:
+        """Has the shell moved since the ambient's mesh was made?"""
+        once = self.problem.plan.coupling == "once"  # whose forces are those of the undeformed shape
+        return bool(self.problem.system.motions) and not once and self._meshed_at != len(self.steps)
+
+    def remesh(self, settle: Callable[[Remeshed], bool]) -> bool:
+        """Give the ambient a new mesh around the present shape at the present load, where ``settle`` finds equilibrium
+        again; False, and nothing changed, if it does not or there is no such mesh."""
+        kept = self.problem, self.state, self.newton, self.solver
+        try:
+            problem = Remeshed(self.problem)
+        except RemeshingError as error:
+            self.detail = f"there is no new mesh of the ambient around this shape ({error})"
+            self._meshed_at = len(self.steps)
+            return False
+        self._work_on(problem)
+        self.newton.clock, self.solver.clock = kept[2].clock, kept[3].clock
+        self.load(self.at)
+        if not settle(problem):
+            self.problem, self.state, self.newton, self.solver = kept
+            self.load(self.at)
+            self._meshed_at = len(self.steps)
+            return False
+        self.remeshings, self._meshed_at = self.remeshings + 1, len(self.steps)
+        for listener in self.listeners:
+            listener.remeshed(problem)
+        return True
+
     def iterated(self, target: Target, iteration: Iteration) -> None:
         """Count a Newton step towards ``target``, and tell the listeners."""
         self.iterations += 1
@@ -86,6 +125,8 @@ class Session:
         if compressed(self.problem, scalars):
             self.detail = region_in_compression(self.problem, self.state)
             return Result.COMPRESSIVE_MEMBRANE
+        if self.problem.system.motions:
+            scalars["remeshings"] = float(self.remeshings)
         if countable(self.problem.system):
             scalars["unstable_modes"] = math.nan if unstable is None else float(unstable)
         record = StepRecord(

@@ -125,6 +125,7 @@ class State:
 
     def _ambient_fields(self, side: str) -> list[Field]:
         scales = self._scales
+        # From where the ambient's mesh is, which is not where the shell came from once it has been made anew.
         motion, w = self._system.motions[side].y[side], self._system.motions[side].w
         F = Id(self._domain.mesh.dim) + Grad(motion) + Grad(w)
         strength = self._field.strength(side, self._values, motion + w, F)

@@ -9,6 +9,7 @@ import numpy as np
 from embedding.errors import Problem, SceneError
 from embedding.geometry.domain import Domain
 from embedding.geometry.places import CLOSE, Place, corner
+from embedding.geometry.positions import reference_positions
 from embedding.scene import Scales, Scene, Support
 from embedding.shell.edges import conormal, edge_mean
 
@@ -74,7 +75,7 @@ def _place(support: Support, domain: Domain, scales: Scales) -> Place:
 def _axis_across(domain: Domain, edge: str) -> str | None:
     """The axis across the plane in which the reference shell ends square at ``edge``, or None."""
     numbers = {v.nr for element in domain.mesh.BBoundaries(edge).Elements() for v in element.vertices}
-    places = np.array([v.point for v in domain.mesh.vertices if v.nr in numbers])
+    places = reference_positions(domain.mesh)[sorted(numbers)]
     outward = conormal(domain)
     for i, axis in enumerate(domain.reduction.axes):
         in_plane = np.ptp(places[:, i]) < CLOSE

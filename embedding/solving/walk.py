@@ -76,8 +76,28 @@ def start(corrector: Corrector, goal: Condition, watch: Watch) -> tuple[Metric, 
     return metric, Point(values, parameter, 0.0, tangent, equilibrium.unstable_modes(), equilibrium.save())
 
 
+def settled(corrector: Corrector, metric: Metric, here: Point, tangent: Direction, watch: Watch) -> list[Point]:
+    """The point ``here`` of a walk on a structure that has become a little different and stands near it, found across
+    the ``tangent`` that it had; none if there is no equilibrium nearby."""
+    equilibrium = corrector.equilibrium
+    values, parameter = equilibrium.values(), equilibrium.parameter
+    along = metric.unit(tangent)
+    plane = metric.plane(along, values, parameter)
+    correction = corrector.correct(values, parameter, plane, watch, thorough=True)
+    if correction.reason is not None or correction.response is None:
+        return []
+    tangent = metric.unit(Direction(correction.response, 1.0))
+    if metric.inner(tangent, along) < 0.0:
+        tangent = tangent.scaled(-1.0)
+    values, parameter = equilibrium.values(), equilibrium.parameter
+    return [Point(values, parameter, here.place, tangent, equilibrium.unstable_modes(), equilibrium.save())]
+
+
 class Walk:
-    """A walk from ``here`` until the scalar of ``goal`` takes its target for the first time."""
+    """A walk from ``here`` until the scalar of ``goal`` takes its target for the first time.
+
+    A step that fails is cut, except for the reason ``at_once``.
+    """
 
     def __init__(
         self,
@@ -93,6 +113,7 @@ class Walk:
         self.before: Point | None = None
         self._older: Point | None = None
         self.done = False
+        self.at_once: Result | None = None
         self._watch, self._told_cut = watch, cut
         rate = 1.0 if here.tangent is None else abs(here.tangent.parameter)
         self.length = self._first = min(stride.first / max(rate, LIGHTEST), FARTHEST)
@@ -104,7 +125,7 @@ class Walk:
             reason = self._attempt()
             if reason is None:
                 return None
-            if not self.shorten(reason):
+            if reason is self.at_once or not self.shorten(reason):
                 return reason
 
     def shorten(self, reason: Result) -> bool:

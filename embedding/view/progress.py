@@ -100,6 +100,11 @@ class ProgressDisplay(Listener):
         self.note = f"step {step_number} is retried at {fraction:.4g} of its length: {reason}"
         self._line(self.note)
 
+    def remeshed(self, problem: Problem) -> None:
+        """The space around the shell has a new mesh."""
+        self.newton = []
+        self._line(f"the space around the shell is meshed anew: {problem.mesh.ne} elements")
+
     def finished(self, solution: Solution) -> None:
         """The path has ended."""
         result = solution.result.name.lower().replace("_", " ")

@@ -22,6 +22,8 @@ from ngsolve import BND, CF, Grad, GridFunction, IfPos, InnerProduct, SurfaceL2,
 
 from embedding.geometry.domain import Domain
 from embedding.geometry.ends import facets_named
+from embedding.geometry.matching import Matching, put
+from embedding.geometry.positions import reference_positions
 from embedding.geometry.spaces import Mask, TraceSpace
 from embedding.shell.bending.stiffness import EdgeMoments, Stiffness
 from embedding.shell.kinematics import Kinematics, surface_gradient
@@ -45,12 +47,12 @@ class CurveBending:
         fixed = np.zeros(self._trace.scalar.ndof, bool)
         fixed[free_ends] = True
         if self._axisymmetric:
-            fixed[[v.nr for v in domain.mesh.vertices if abs(v.point[0]) < ON_AXIS]] = True
+            fixed[: domain.mesh.nv][np.abs(reference_positions(domain.mesh)[:, 0]) < ON_AXIS] = True
         self._trace.fix(0, fixed)
         self._given = GridFunction(self._trace.scalar)
         for edge, given in moments:
             for vertex in facets_named(domain.facets, (edge,)):
-                radius = domain.mesh.vertices[int(vertex)].point[0] if self._axisymmetric else 1.0
+                radius = reference_positions(domain.mesh)[int(vertex), 0] if self._axisymmetric else 1.0
                 self._given.vec[int(vertex)] = given * radius
         self._turned = GridFunction(SurfaceL2(domain.mesh, order=domain.sizes.order, definedon=domain.shell))
         self._tangent = specialcf.tangential(2)
@@ -128,6 +130,12 @@ class CurveBending:
     def continue_from(self, other: CurveBending) -> None:
         """Count the angle on from where ``other``, of another order on the same mesh, has it."""
         self._turned.Set(other._turned, BND, definedon=self.domain.shell)
+
+    def carried_from(self, other: CurveBending, matching: Matching) -> None:
+        """Count the angle on from where ``other``, on another mesh with the same shell, has it."""
+        order = self._turned.space.globalorder
+        unknowns = put(self._turned.space, matching.new, matching.sampled(other._turned, order))
+        self._turned.vec.FV().NumPy()[:] = unknowns[0]
 
     @property
     def memory(self) -> npt.NDArray[np.float64]:
