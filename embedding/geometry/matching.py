@@ -38,7 +38,7 @@ class Matching:
         nearest = nearest_of(places.reshape(-1, places.shape[2]), new.points.reshape(-1, new.mesh.dim), SAME)
         if len(old.numbers) != len(new.numbers) or nearest.min() < 0:
             raise ValueError("the shells have not the same elements")
-        vertices = old.corners.ravel()[nearest].reshape(new.corners.shape)
+        vertices: Integers = old.corners.ravel()[nearest].reshape(new.corners.shape)
         rows = {frozenset(corners): row for row, corners in enumerate(old.corners.tolist())}
         row = np.array([rows.get(frozenset(corners), -1) for corners in vertices.tolist()])
         if row.min() < 0:

@@ -13,7 +13,7 @@ from ngsolve import VOL, Mesh
 
 from embedding.geometry.cut import BOTTOM, RIM, TOP, Cut, Integers
 from embedding.geometry.facets import Facets
-from embedding.geometry.outline import Outline
+from embedding.geometry.outline import NoMeshError, Outline
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.shapes import outline
 from embedding.geometry.sides import signs
@@ -70,6 +70,8 @@ def around(geometry: Outline, reduction: Reduction, sizes: MeshSizes, up: Callab
     rim_vertices, rim_edges = cut.rim_vertices, cut.rim_edges
     points = np.array([v.point for v in trial.vertices])
     element, facet = cut.beside
+    if np.any(np.bincount(facet, minlength=len(facets.corners)) != 2):  # netgen leaves faces out and only says so
+        raise NoMeshError("the mesh generator left out what is beside the shell")
     reach = points[elements[element]].mean(axis=1) - points[facets.corners[facet]].mean(axis=1)
     sides = cut.sides(np.einsum("ij,ij->i", reach, up(facets)[facet]) > 0)
     materials = np.array([element.mat for element in trial.Elements(VOL)])
