@@ -4,7 +4,7 @@ Physics: a moment at the end bends the clamped strip into a half circle; the fie
 half a turn, those below it are squeezed.
 
 Reference: the half circle of radius L / pi: the tip ends at (0, 2 L / pi), up to (pi T / L)^2. The smallest
-det F of the mesh's motion is recorded as ``min_jacobian``; the guard stops at 0.02, beyond 270 degrees.
+det F of the mesh's motion is recorded as ``min_jacobian``; beyond three quarters of a turn the space is meshed anew.
 
 Run: about ten seconds.
 """

@@ -1,0 +1,95 @@
+"""Paths on which the space around the shell is meshed anew: the same answers, more of the way, and it is told."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from embedding import Listener, Solution, open_archive
+from embedding.solving import session
+from embedding.solving.driver import Run
+from embedding.solving.problem import Problem
+from embedding.solving.result import Result
+from problems import grounded_balloon, turned_in_a_field
+
+ROUND = 'loads.edge_moments=[{ edge = "x1", moment = "83.7758 uN" }]'
+TOO_FAR = 'loads.edge_moments=[{ edge = "x1", moment = "95 uN" }]'
+
+
+class Meshes(Listener):
+    """The number of elements of each mesh after the first."""
+
+    def __init__(self) -> None:
+        self.sizes: list[int] = []
+
+    def remeshed(self, problem: Problem) -> None:
+        self.sizes.append(problem.mesh.ne)
+
+
+def test_a_strip_rolled_up_to_a_full_circle(tmp_path: Path) -> None:
+    """Its tip comes back to the clamp, up to the strip's own thinness; on one mesh it gets to three quarters."""
+    solution, tip = turned_in_a_field.run(ROUND, archive=tmp_path / "rolled.vtkhdf")
+    assert solution["remeshings"][0] == 0 and solution["remeshings"][-1] >= 1
+    assert solution["min_jacobian"].min() > 0.02
+    assert tip == pytest.approx((1.0, 0.0), abs=2 * (0.02 * np.pi) ** 2)
+    check_archives(tmp_path / "rolled.vtkhdf", solution)
+
+
+def check_archives(path: Path, solution: Solution) -> None:
+    """A file for each mesh; together they have every step, and the earlier ones say where it goes on."""
+    files = [path] + [path.with_stem(f"{path.stem}.{i}") for i in range(2, 2 + int(solution["remeshings"][-1]))]
+    archives = [open_archive(file) for file in files]
+    numbers = [step.number for archive in archives for step in archive.steps]
+    assert numbers == [step.number for step in solution.steps]
+    assert [archive.result.name for archive in archives] == ["CONTINUED"] * (len(files) - 1) + ["CONVERGED"]
+    assert files[1].name in archives[0].result.message
+
+
+@pytest.mark.slow
+def test_a_strip_that_touches_itself_is_told_of() -> None:
+    run = Run(turned_in_a_field.scene(TOO_FAR), ())
+    solution = run.solve()
+    assert solution.result is Result.INVERTED_AMBIENT
+    assert "no new mesh of the ambient around this shape" in solution.message
+    assert 95 * solution.steps[-1].factor_mechanical == pytest.approx(83.7758, rel=0.02), "the full circle"
+
+
+ARC, RAMP = "path=[{steps=5}]", "path=[{control='load', steps=5}]"
+IN_TURN = "model.coupling='staggered'"
+IN_SPACE = ("model.reduction='3d'", "path=[{steps=2}]")
+
+
+@pytest.mark.parametrize(
+    "changes", [(ARC,), (RAMP,), (RAMP, IN_TURN), pytest.param(IN_SPACE, marks=pytest.mark.slow)],
+    ids=["arc length", "load", "staggered", "3d"],
+)  # fmt: skip
+def test_the_answer_does_not_depend_on_it(changes: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
+    """A balloon pulled outwards, its mesh made anew after every step: the same but for the ambient's own error."""
+    plain = grounded_balloon.run(*changes)
+    monkeypatch.setattr(session, "WORN", 1.0)
+    seen = Meshes()
+    often = Run(grounded_balloon.scene(*changes), [seen]).solve()
+    assert often.result.ok and often["remeshings"][-1] >= 1 and often["remeshings"][-1] <= len(seen.sizes)
+    assert often["min_jacobian"][-1] > plain["min_jacobian"][-1]
+    assert often["stretch"][-1] == pytest.approx(plain["stretch"][-1], rel=2e-4)
+    assert often["charge"][-1] == pytest.approx(plain["charge"][-1], rel=2e-4)
+
+
+def test_through_a_limit_point(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Past the largest voltage the walk keeps its direction, and finds the bifurcations there."""
+    end = "path=[{until={where=['20 mm', '0 mm', '0 mm'], axis='x', value='18 mm'}}]"
+    changes = (*grounded_balloon.at_voltage(400e3), end)
+    plain = grounded_balloon.run(*changes)
+    monkeypatch.setattr(session, "WORN", 0.8)
+    often = grounded_balloon.run(*changes)
+    assert often["remeshings"][-1] >= 1
+    kinds, places = (
+        [[getattr(point, name) for point in solution.critical_points] for solution in (plain, often)]
+        for name in ("kind", "factor_field")
+    )
+    assert kinds[0] == kinds[1] and kinds[0].count("limit") == 1
+    assert places[1] == pytest.approx(places[0], rel=5e-4)
+    assert often["voltage"].argmax() < len(often["voltage"]) - 1
+    assert often["voltage"][-1] == pytest.approx(plain["voltage"][-1], rel=1e-3)
