@@ -19,7 +19,7 @@ Mask = npt.NDArray[np.bool_]
 Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 
-INNER = "inner"
+INNER = "between elements"
 """Name of what only looks like an edge of the geometry: a facet of a mesh that another mesh is made around."""
 KINK = np.radians(1.0)
 """Smallest angle, in rad, that counts as a kink where faces of the geometry meet."""

@@ -24,7 +24,8 @@ class Result(Enum):
     )
     INVERTED_AMBIENT = (
         "elements of the ambient would turn over as the shell moves, and a new mesh of it does not help. "
-        "See whether the shell comes to touch itself or a body; else make the ambient larger or its mesh on the shell finer"
+        "See whether the shell comes to touch itself or a body; "
+        "else make the ambient larger, or the mesh on the shell finer"
     )
     LINEAR_SOLVER_FAILED = (
         "the linear system is singular: a motion is held by nothing. "
