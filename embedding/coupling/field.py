@@ -49,17 +49,17 @@ class FieldEnergies:
 
     def motion_of(self, face: str, values: dict[str, Any]) -> Moved:
         """What moves the elements beside ``face`` ("t" or "b"), without the ambient's interior motion."""
-        parts = [values[name] for name in self._movers(face)]
+        parts = [values[name] for name in self.movers(face)]
         return Moved(sum(parts[1:], parts[0]), sum(map(Grad, parts[1:]), Grad(parts[0])))
 
-    def _movers(self, face: str) -> list[str]:
+    def movers(self, face: str) -> list[str]:
         """The unknowns whose sum displaces ``face``."""
         names = [] if face in self.unknowns.opened and not self.domain.open else ["u"]
         return names + ([self.unknowns.moved_by(face)] if face in self.unknowns.opened else [])
 
     def _on_face(self, face: str, values: dict[str, Any]) -> Moved:
         """Displacement of ``face`` and its surface gradient, on the shell itself."""
-        parts = [values[name] for name in self._movers(face)]
+        parts = [values[name] for name in self.movers(face)]
         slopes = [surface_gradient(part) for part in parts]
         return Moved(sum(map(_trace, parts[1:]), _trace(parts[0])), sum(slopes[1:], slopes[0]))
 

@@ -187,18 +187,26 @@ class System:
             self.form.AssembleLinearization(vector)
         self._linearised = present
         self._solver.factor(self.form)
+        if self.following is not None:
+            self.following.linearise()
 
     def forget(self) -> None:
         """Let the next tangent be that of its state alone: what led there was no update of Newton's method."""
         self._linearised = self._displacement
 
     def solve(self, right_side: Any) -> Any:
-        """Solve with the tangent of the last :meth:`linearise`.
+        """Solve with the tangent of the last :meth:`linearise`, all of it.
 
         Raises:
             LinearSolverError: the tangent is singular.
         """
-        return self._solver.solve(right_side)
+        update = self._solver.solve(right_side)
+        return update if self.following is None else self.following.complete(self._solver, update)
+
+    @property
+    def more_negative(self) -> int:
+        """Negative eigenvalues that the whole tangent has more than the matrix of :meth:`tangent`."""
+        return 0 if self.following is None else self.following.more_negative(self._solver)
 
     def tangent(self) -> tuple[sparse.csc_array, Mask]:
         """The tangent of the last :meth:`linearise` on its free unknowns, condensed, and which of them are numbers."""

@@ -21,6 +21,7 @@ mid-surface need not reach into the ambient: a third of the unknowns less in eac
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -73,6 +74,8 @@ class Unknowns:
         for name in self.numbers:
             self._parts[name] = (NumberSpace(domain.mesh), np.ones(1, bool))
         self.names = tuple(self._parts)
+        ends = np.cumsum([0, *(space.ndof for space, _ in self._parts.values())]).tolist()
+        self._ranges = {name: slice(*pair) for name, pair in zip(self.names, pairwise(ends), strict=True)}
         self.space = FESpace([space for space, _ in self._parts.values()])
         self.condensed = self._condense(physics)
         self.state = GridFunction(self.space)
@@ -127,9 +130,7 @@ class Unknowns:
 
     def range(self, name: str) -> slice:
         """Where the unknowns of ``name`` lie in the state vector."""
-        sizes = [space.ndof for space, _ in self._parts.values()]
-        start = sum(sizes[: self.names.index(name)])
-        return slice(start, start + sizes[self.names.index(name)])
+        return self._ranges[name]
 
     def free(self, held: tuple[str, ...] = ()) -> Any:
         """Bits of the free unknowns; components named in ``held`` count as prescribed."""

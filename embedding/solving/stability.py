@@ -48,7 +48,8 @@ def unstable_modes(system: System) -> int | None:
         return None
     matrix, multipliers = system.tangent()
     shift = SHIFT if system.unknowns.rigid else 0.0
-    return negative_eigenvalues(matrix, multipliers, shift=shift, less=system.saddle_count)
+    count = negative_eigenvalues(matrix, multipliers, shift=shift, less=system.saddle_count)
+    return None if count is None else count + system.more_negative
 
 
 def negative_eigenvalues(matrix: sparse.csc_array, border: Mask, *, shift: float = 0.0, less: int = 0) -> int | None:
