@@ -72,7 +72,7 @@ class Unknowns:
         self.rigid = free_rigid_motions(domain, self.trace, physics.clamped if physics.bending else ())
         self.numbers = (*numbers, *(f"rigid{i}" for i in range(len(self.rigid))))
         for name in self.numbers:
-            self._parts[name] = (NumberSpace(domain.mesh), np.ones(1, bool))
+            self._parts[name] = (NumberSpace(domain.mesh, definedon=domain.shell), np.ones(1, bool))
         self.names = tuple(self._parts)
         ends = np.cumsum([0, *(space.ndof for space, _ in self._parts.values())]).tolist()
         self._ranges = {name: slice(*pair) for name, pair in zip(self.names, pairwise(ends), strict=True)}
