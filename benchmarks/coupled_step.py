@@ -1,11 +1,13 @@
 """One coupled Newton step against one Poisson solve as the ambient grows, 3D, order 3: seconds, memory, exponents.
 
-The scene is the charged balloon, its top face opened, meshes refined everywhere alike. The step consists of the
-ambient's motion, the potential's own solve and the joint update; the Poisson solve assembles, prepares and solves the
-potential's system on the moved mesh. Both run on one thread and are measured in its seconds of computing, so that other
-work on the machine does not count. Every size has a process of its own for the peak of its memory.
+The scene is the charged balloon, its top face opened, meshes refined everywhere alike. It starts a tenth larger than at
+rest and Newton's method brings it to equilibrium (beyond ``WHOLE`` unknowns only its first step is taken). A step is the ambient's motion, the potential's own
+solve and the joint update; the Poisson solve assembles, prepares and solves the potential's system on the moved mesh,
+with the same solver. All runs on one thread and is measured in its seconds of computing, so that other work on the
+machine does not count. The step of the table is the first of the solve. Every size has a process of its own for the peak of its memory.
 
 ``python -m benchmarks.coupled_step [unknowns ...]``: 10000 and 100000 by default; 1000000 takes a quarter of an hour.
+With ``docs`` all three are written to docs/coupled_step.md.
 """
 
 from __future__ import annotations
@@ -16,65 +18,96 @@ import resource
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
-from benchmarks.newton_step import operations
+from ngsolve import BND, SetNumThreads, TaskManager
+
 from benchmarks.scenes import balloon
 from embedding.plan import explain
+from embedding.solving.newton import Newton
+from embedding.solving.path import Target
 from embedding.solving.problem import Problem
+from embedding.solving.state import State
 
 MESHES = {10_000: (0.2, 1.0), 100_000: (0.0627, 0.376), 1_000_000: (0.0257, 0.154)}
 """Sizes of the elements on the shell and far away, in radii, that give about so many unknowns of the potential."""
 DEFAULT = (10_000, 100_000)
+WHOLE = 200_000
+LARGER = 0.1
+PAGE = Path(__file__).parent.parent / "docs" / "coupled_step.md"
 
 
 def measure(unknowns: int, linear: str = "auto") -> dict[str, Any]:
     """Unknowns, seconds, iterations and memory of one size."""
     shell_size, ambient_size = MESHES[unknowns]
     scene = balloon(shell_size=shell_size, ambient_size=ambient_size, linear=linear)
-    problem = Problem(scene, explain(scene))
-    poisson, step = operations(problem)
-    poisson()  # what is prepared once, as the patches
-    times = [_computing(poisson), _computing(step)]
-    system = problem.system
-    potential = system.potential
-    iterative = potential is not None and potential.iterative is not None
+    SetNumThreads(1)
+    with TaskManager():
+        problem = Problem(scene, explain(scene))
+        system, potential = problem.system, problem.system.potential
+        if potential is None:
+            raise RuntimeError("the timed scene has a field")
+        inflate(problem, LARGER)
+        times = [time.process_time()]
+        most = scene.solver.max_iterations if unknowns <= WHOLE else 1
+        newton = Newton(system, scene.solver.tolerance, most, State(problem).mean_pressures)
+        newton.load(Target(1.0, 1.0, None, None))
+        outcome = newton.solve(lambda iteration: times.append(time.process_time()))
+        if outcome.reason is not None and most > 1:
+            raise RuntimeError(f"Newton's method ended: {outcome.reason.name}")
+        linear_iterations = None if potential.iterative is None else system.iterations
+        start = time.process_time()
+        potential.solve()
+        poisson = time.process_time() - start
     return {
         "unknowns": system.unknowns.count["phi"],
         "joint": system.free_count,
-        "poisson": times[0],
-        "step": times[1],
-        "iterations": system.iterations if iterative else None,
+        "poisson": poisson,
+        "step": times[1] - times[0],
+        "solve": times[-1] - times[0] if most > 1 else None,
+        "steps": len(outcome.iterations),
+        "iterations": linear_iterations,
         "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20,
     }
 
 
-def _computing(work: Callable[[], object]) -> float:
-    start = time.process_time()
-    work()
-    return time.process_time() - start
+def inflate(problem: Problem, part: float) -> None:
+    """Put the shell where it is larger by ``part``."""
+    unknowns = problem.system.unknowns
+    unknowns.field("u").Set(part * problem.reduction.position, BND, definedon=problem.domain.shell)
+    unknowns.field("u").vec.FV().NumPy()[~unknowns.trace.free] = 0.0
+    problem.system.place_faces()
 
 
 def table(sizes: Sequence[int]) -> Iterator[str]:
     """The table as Markdown, and by what power of the unknowns each column grows."""
-    yield "| potential | joint unknowns | Poisson solve | Newton step | ratio | iterations | memory |"
+    yield "| potential | joint unknowns | linear iterations | Poisson solve | Newton step | Newton solve | memory |"
     yield "|---|---|---|---|---|---|---|"
     rows = []
     for size in sizes:
         command = [sys.executable, "-m", "benchmarks.coupled_step", "--one", str(size)]
-        rows.append(json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout))
-        row = rows[-1]
-        counts = "direct" if row["iterations"] is None else " and ".join(map(str, row["iterations"]))
-        yield (
-            f"| {row['unknowns']:,} | {row['joint']:,} | {row['poisson']:.2g} s | {row['step']:.2g} s "
-            f"| {row['step'] / row['poisson']:.1f} | {counts} | {row['memory']:.1f} GB |"
-        )
+        rows.append(json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout))
+        yield _line(rows[-1])
     for before, after in zip(rows, rows[1:], strict=False):
-        growth = math.log(after["unknowns"] / before["unknowns"])
-        names = ("poisson", "step", "memory")
-        powers = (f"{name} {math.log(after[name] / before[name]) / growth:.2f}" for name in names)
-        yield f"growth from {before['unknowns']:,} to {after['unknowns']:,}: {', '.join(powers)}"
+        powers = {name: _power(before, after, name) for name in ("poisson", "step", "solve", "memory")}
+        known = " | ".join(powers.values())
+        yield f"| power from {before['unknowns']:,} to {after['unknowns']:,} | | | {known} |"
+
+
+def _line(row: dict[str, Any]) -> str:
+    counts = "direct" if row["iterations"] is None else " and ".join(map(str, row["iterations"]))
+    step, poisson = row["step"], row["poisson"]
+    solve = "" if row["solve"] is None else f"{row['steps']} steps, {row['solve'] / poisson:.1f} Poisson solves"
+    sizes = f"| {row['unknowns']:,} | {row['joint']:,} | {counts} "
+    return f"{sizes}| {poisson:.2g} s | {step / poisson:.1f} Poisson solves | {solve} | {row['memory']:.2g} GB |"
+
+
+def _power(before: dict[str, Any], after: dict[str, Any], name: str) -> str:
+    if before[name] is None or after[name] is None:
+        return ""
+    return f"{math.log(after[name] / before[name]) / math.log(after['unknowns'] / before['unknowns']):.2f}"
 
 
 def report() -> Iterator[str]:
@@ -82,9 +115,27 @@ def report() -> Iterator[str]:
     yield from table(DEFAULT)
 
 
+def main(arguments: list[str]) -> None:
+    """Print the table; with "docs" also write the page's."""
+    docs = arguments == ["docs"]
+    lines = []
+    for line in table(tuple(MESHES) if docs else [int(size) for size in arguments] or DEFAULT):
+        lines.append(line)
+        print(line, flush=True)
+    if docs:
+        write(PAGE, "<!-- coupled step -->", lines)
+
+
+def write(page: Path, mark: str, lines: Sequence[str]) -> None:
+    """Put ``lines`` on the ``page`` between ``mark`` and the end after it."""
+    text = page.read_text()
+    start = text.index(mark) + len(mark)
+    end = text.index("<!-- end -->", start)
+    page.write_text("\n".join([text[:start], "", *lines, "", text[end:]]))
+
+
 if __name__ == "__main__":
     if "--one" in sys.argv:
         print(json.dumps(measure(int(sys.argv[sys.argv.index("--one") + 1]))))
     else:
-        for line in table([int(size) for size in sys.argv[1:]] or DEFAULT):
-            print(line, flush=True)
+        main(sys.argv[1:])

@@ -22,9 +22,9 @@ from embedding.coupling.unknowns import FACES, SIDES, Unknowns
 from embedding.geometry.spaces import Mask, as_bits, scalar_mask
 
 Array = npt.NDArray[np.float64]
-POTENTIAL_TOLERANCE, JOINT_TOLERANCE = 1e-10, 1e-9
-SAFE = 0.1
-"""A second pass of the joint system aims at this part of what it must reach."""
+POTENTIAL_TOLERANCE = 1e-10
+JOINT_TOLERANCE, LEAST_GAIN = 1e-9, 0.1
+"""What GMRES leaves of the load of the joint system, of which ``ACCURATE`` may be left; and what it gains at least."""
 MOST_ITERATIONS, MOST_JOINT = 200, 150
 WORN = 60
 """Iterations of the joint system after which a preconditioner from an earlier state is replaced."""
@@ -121,31 +121,33 @@ class JointSolver(LinearSolver):
             return update
         rest.data = load
         self.iterations.append(0)
-        tolerance = JOINT_TOLERANCE
-        for _ in range(2):  # once more if rounding near the shell asks for it, as far as it does
-            update.data += self._eliminated(rest, tolerance)
+        for _ in range(2):  # once more if rounding near the shell asks for it
+            update.data += self._eliminated(rest, JOINT_TOLERANCE * size)
             rest.data = load - self._form.mat * update
             remainder = float(np.linalg.norm(rest.FV().NumPy()[self.kept])) / size
             if not remainder > ACCURATE:
                 break
-            tolerance = max(JOINT_TOLERANCE, SAFE * ACCURATE / remainder)
         if not (remainder < ACCURATE or self._backward_stable(load, update)):
             raise LinearSolverError(_failure("GMRES", Ending(self.iterations[-1], remainder)))
         return update
 
-    def _eliminated(self, load: Any, tolerance: float) -> Any:
-        """The solution for ``load``, by elimination of what is near the shell."""
+    def _eliminated(self, load: Any, remainder: float) -> Any:
+        """The solution for ``load``, by elimination of what is near the shell; GMRES leaves a ``remainder`` of that
+        norm."""
         near, image = self._near.solve(load), load.CreateVector()
         image.data = load - self._form.mat * near
         right_side = image.FV().NumPy()[self._far]
         far = load.CreateVector()
         far[:] = 0.0
-        far.FV().NumPy()[self._far] = self._far_part(right_side, tolerance)
+        far.FV().NumPy()[self._far] = self._far_part(right_side, remainder)
         image.data = load - self._form.mat * far
         far.data += self._near.solve(image)
         return far
 
-    def _far_part(self, right_side: Array, tolerance: float) -> Array:
+    def _far_part(self, right_side: Array, remainder: float) -> Array:
+        size = float(np.linalg.norm(right_side))
+        # what is near the shell may put far more on the right side than there is load
+        tolerance = min(LEAST_GAIN, remainder / size) if size > 0.0 else LEAST_GAIN
         work, image = (self._form.mat.CreateColVector() for _ in range(2))
 
         def operator(values: Array) -> Array:
