@@ -1,10 +1,11 @@
 """One coupled Newton step against one Poisson solve as the ambient grows, 3D, order 3: seconds, memory, exponents.
 
 The scene is the charged balloon, its top face opened, meshes refined everywhere alike. It starts a tenth larger than at
-rest and Newton's method brings it to equilibrium (beyond ``WHOLE`` unknowns only its first step is taken). A step is the ambient's motion, the potential's own
-solve and the joint update; the Poisson solve assembles, prepares and solves the potential's system on the moved mesh,
-with the same solver. All runs on one thread and is measured in its seconds of computing, so that other work on the
-machine does not count. The step of the table is the first of the solve. Every size has a process of its own for the peak of its memory.
+rest, and Newton's method brings it to equilibrium; beyond ``WHOLE`` unknowns only the first step is taken. The step of
+the table is that first one: the ambient's motion, the potential's own solve and the joint update. The Poisson solve
+assembles, prepares and solves the potential's system on the moved mesh, with the same solver. All runs on one thread
+and is measured in its seconds of computing, so that other work on the machine does not count. Every size has a process
+of its own for the peak of its memory.
 
 ``python -m benchmarks.coupled_step [unknowns ...]``: 10000 and 100000 by default; 1000000 takes a quarter of an hour.
 With ``docs`` all three are written to docs/coupled_step.md.
