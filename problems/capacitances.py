@@ -1,12 +1,13 @@
 """Capacitances of conductors alone and in pairs, and the forces between them, against exact values.
 
 Physics: the shell keeps its shape, so that this is the field alone: bowls whose rims carry an infinite charge density,
-smooth bodies, a sphere beside another one and over a grounded plane that goes on to infinity.
+smooth bodies, a sphere beside another one and over a grounded plane that goes on to infinity; a square, which takes
+three dimensions.
 
-Reference: `problems.exact.capacitance` (Kelvin's bowls, spheroids, ring torus) and `problems.exact.conducting_spheres`
-(Maxwell's images).
+Reference: `problems.exact.capacitance` (Kelvin's bowls, spheroids, ring torus, the square by boundary elements) and
+`problems.exact.conducting_spheres` (Maxwell's images).
 
-Run: about ten seconds.
+Run: about half a minute.
 """
 
 from __future__ import annotations
@@ -58,6 +59,9 @@ RIMMED = {
     "hemisphere": _bowl(90.0),
     "bowl of 120 degrees": _bowl(120.0),
 }
+SQUARE = Conductor(
+    f"{{kind = 'plate', length = {2 * R}, width = {2 * R}, centred = true}}", capacitance.square(2 * R, EPSILON_0)
+)
 
 
 def scene(*changes: str) -> Scene:
@@ -74,6 +78,20 @@ def error(conductor: Conductor, *changes: str) -> float:
     """Relative error of the capacitance."""
     solution = run(f"shell.shape={conductor.shape}", *changes)
     return float(solution["charge"][-1] / solution["voltage"][-1] / conductor.known - 1.0)
+
+
+def at_edges(size: float) -> str:
+    """Override: elements of this size, in m, along the edges of the square. Its error is of first order in them."""
+    return f"discretisation.edge_size={{{', '.join(f'{edge} = {size!r}' for edge in ('x0', 'x1', 'y0', 'y1'))}}}"
+
+
+def beyond_order(low: float, high: float, order: int) -> float:
+    """The limit of the errors ``low`` and ``high`` of the potentials of ``order`` and one more, on one mesh.
+
+    Its singularity at an edge, r^(1/2), lets the energy's error fall as order^-2 (I. Babuska, M. Suri, RAIRO Modél.
+    Math. Anal. Numér. 21 (1987) 199).
+    """
+    return high + (high - low) / ((1.0 + 1.0 / order) ** 2 - 1.0)
 
 
 def second_sphere(distance: float, voltage: float = 0.0) -> str:
@@ -115,6 +133,9 @@ def plane_errors(height: float, *changes: str, voltage: float = 0.0) -> dict[str
 if __name__ == "__main__":
     for name, conductor in (SMOOTH | RIMMED).items():
         print(f"{name:21} {conductor.known * 1e12:.5f} pF: {error(conductor):+.1e}")
+    low, high = error(SQUARE, "discretisation.order=2"), error(SQUARE)
+    print(f"{'square':21} {SQUARE.known * 1e12:.5f} pF: {high:+.1e}; potentials of order 3, 4, and ", end="")
+    print(f"their limit: {low:+.1e}, {high:+.1e}, {beyond_order(low, high, 3):+.1e}")
     for distance in (0.032, 0.044, 0.06):
         print(f"spheres {distance} m apart: {', '.join(f'{k} {e:+.1e}' for k, e in pair_errors(distance).items())}")
     for height in (0.025, 0.04):

@@ -33,7 +33,8 @@ def outline(shape: Shape, reduction: Reduction) -> Outline:
     """The geometry of the dimensionless ``shape``: lengths are divided by its size."""
     match shape:
         case Plate():
-            return surface.plate(shape.length / shape.size, shape.width / shape.size)
+            planes = reduction.planes if shape.centred else None
+            return surface.plate(shape.length / shape.size, shape.width / shape.size, planes)
         case Disc():
             return surface.disc(reduction)
         case Sphere():

@@ -16,17 +16,22 @@ from embedding.geometry.outline import CLOSE, SEAM, CurveOutline, Outline, Surfa
 from embedding.geometry.reduction import Reduction
 
 
-def plate(length: float, width: float) -> SurfaceOutline:
-    """Rectangle [0, length] x [0, width] in z = 0 with edges x0, x1, y0, y1; normal +z."""
-    face = WorkPlane().Rectangle(length, width).Face()
+def plate(length: float, width: float, planes: tuple[str, ...] | None = None) -> SurfaceOutline:
+    """Rectangle [0, length] x [0, width] in z = 0 with edges x0, x1, y0, y1; normal +z.
+
+    With ``planes``, mirror planes or none, its middle is the origin.
+    """
+    x, y = (0.0, 0.0) if planes is None else (-length / 2, -width / 2)
+    face = _halved(WorkPlane().MoveTo(x, y).Rectangle(length, width).Face(), planes or ())
 
     def name(edge: Edge) -> str:
         middle = edge.center
-        if abs(middle.x) < CLOSE or abs(middle.x - length) < CLOSE:
-            return "x0" if abs(middle.x) < CLOSE else "x1"
-        return "y0" if abs(middle.y) < CLOSE else "y1"
+        for axis, at, low, high in (("x", middle.x, x, x + length), ("y", middle.y, y, y + width)):
+            if min(abs(at - low), abs(at - high)) < CLOSE:
+                return f"{axis}0" if abs(at - low) < CLOSE else f"{axis}1"
+        raise ValueError("an edge of a rectangle lies on none of its sides")
 
-    return SurfaceOutline(face, name)
+    return SurfaceOutline(face, lambda edge: on_plane(edge, planes or ()) or name(edge))
 
 
 def disc(reduction: Reduction) -> Outline:

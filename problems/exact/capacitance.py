@@ -25,6 +25,15 @@ def disc(radius: float, permittivity: float = 1.0) -> float:
     return 8.0 * permittivity * radius
 
 
+def square(side: float, permittivity: float = 1.0) -> float:
+    """0.3667892 * 4 pi eps a: boundary elements in the limit of small ones (F. H. Read, J. Comput. Phys. 133 (1997) 1).
+
+    No closed form is known: the charge density grows as the inverse root of the distance from the edges, and as the
+    power -0.703 of that from the corners.
+    """
+    return 0.3667892 * FOUR_PI * permittivity * side
+
+
 def spherical_cap(radius: float, half_angle: float, permittivity: float = 1.0) -> float:
     """4 eps R (alpha + sin alpha): a bowl that its half angle alpha, seen from the centre, cuts from a sphere.
 

@@ -170,3 +170,34 @@ def test_charged_disc() -> None:
     strength = charged_disc.charge_density(radius - near, radius, voltage, eps) * math.sqrt(near)
     assert charged_disc.edge_force(radius, voltage, eps) == pytest.approx(math.pi * strength**2 / (4.0 * eps), rel=1e-6)
     assert charged_disc.radial_force(voltage, eps) == 4.0 * eps * voltage**2
+
+
+def square_by_panels(count: int) -> float:
+    """Of the unit square, over 4 pi eps: charge constant on panels, potential 1 at their centres.
+
+    Panels shrink with the cube of the distance from the edges. A quarter, each panel with its three mirror images.
+    """
+    ends = 1.0 - np.linspace(1.0, 0.0, count + 1) ** 3
+    middle = (ends[1:] + ends[:-1]) / 2.0
+    x, y = (grid.ravel()[:, None] for grid in np.meshgrid(middle, middle))
+    left, bottom = (grid.ravel() for grid in np.meshgrid(ends[:-1], ends[:-1]))
+    right, top = (grid.ravel() for grid in np.meshgrid(ends[1:], ends[1:]))
+
+    def primitive(a: Array, b: Array) -> Array:
+        """Of 1/r in the plane."""
+        return np.asarray(a * np.arcsinh(b / abs(a)) + b * np.arcsinh(a / abs(b)))
+
+    potential = np.zeros((count**2, count**2))
+    for across, up in ((1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)):
+        for u, v, sign in ((right, top, 1.0), (left, top, -1.0), (right, bottom, -1.0), (left, bottom, 1.0)):
+            potential += across * up * sign * primitive(across * u - x, up * v - y)
+    charge = np.linalg.solve(potential, np.ones(count**2))
+    return float(2.0 * charge @ ((right - left) * (top - bottom)))
+
+
+def test_thesquare_by_panels() -> None:
+    """The published value is that of panels in the limit of small ones."""
+    published = capacitance.square(1.0) / (4.0 * np.pi)
+    coarse, fine = (abs(square_by_panels(count) / published - 1.0) for count in (10, 20))
+    assert fine < 1e-4
+    assert fine < 0.3 * coarse

@@ -34,6 +34,9 @@ def of_thick_torus(x: np.ndarray) -> np.ndarray:
 
 CASES = {name: case for name, case in ALONE.items() if name not in ("T", "slit ring", "torus")} | {
     "plate": Case(Plate(length=1.0, width=0.6), 0.6, upwards(2), flat, {"x0": 0.6, "x1": 0.6, "y0": 1.0, "y1": 1.0}),
+    "centred plate": Case(
+        Plate(length=1.0, width=0.6, centred=True), 0.6, upwards(2), flat, {"x0": 0.6, "x1": 0.6, "y0": 1.0, "y1": 1.0}
+    ),
     "disc": Case(Disc(radius=1.0), PI, upwards(2), flat, {"rim": 2 * PI}),
     "sphere": Case(Sphere(radius=1.0), 4 * PI, central, constant(-1.0), volume=4 / 3 * PI),
     "thick torus": Case(Torus(radius=1.0, tube_radius=0.6), 2.4 * PI**2, of_thick_torus, flat, volume=0.72 * PI**2),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from problems import capacitances
-from problems.capacitances import RIMMED, SMOOTH, R
+from problems.capacitances import RIMMED, SMOOTH, SQUARE, R, at_edges, beyond_order
 
 
 @pytest.mark.parametrize("name", SMOOTH)
@@ -16,6 +16,31 @@ def test_smooth_conductors(name: str) -> None:
 @pytest.mark.parametrize("name", RIMMED)
 def test_conductors_with_a_rim(name: str) -> None:
     assert abs(capacitances.error(RIMMED[name])) < 1e-3
+
+
+def test_a_square() -> None:
+    """In 3D: elements of a tenth of the side along the edges, around which the field is singular."""
+    low, high = (capacitances.error(SQUARE, f"discretisation.order={order}") for order in (1, 2))
+    assert 0.0 < high < 1.5e-2
+    assert abs(beyond_order(low, high, 2)) < 4e-3
+
+
+@pytest.mark.slow
+def test_a_square_by_default() -> None:
+    """Potentials of order 3 and 4: the error falls as order^-2."""
+    low, high = capacitances.error(SQUARE, "discretisation.order=2"), capacitances.error(SQUARE)
+    assert 0.0 < high < 1e-2
+    assert high / low == pytest.approx((3.0 / 4.0) ** 2, rel=0.1)
+    assert abs(beyond_order(low, high, 3)) < 1.5e-3
+
+
+@pytest.mark.slow
+def test_a_square_with_smaller_elements_at_its_edges() -> None:
+    """Of first order in their size."""
+    coarse, fine = (capacitances.error(SQUARE, at_edges(size), "discretisation.order=2") for size in (2e-3, 1e-3))
+    assert 0.0 < fine < 4e-3
+    assert fine / coarse == pytest.approx(0.5, rel=0.05)
+    assert abs(2.0 * fine - coarse) < 3e-4
 
 
 @pytest.mark.parametrize("name", ["sphere", "prolate spheroid 2:1", "torus"])

@@ -51,6 +51,7 @@ ALL: tuple[Surface, ...] = (
     InfiniteCylinder(radius=2),
     Strip(length=2),
     Arch(radius=2, half_angle=0.5),
+    Plate(length=2, width=1, centred=True),
 )
 
 
@@ -117,6 +118,7 @@ def test_a_shape_survives_toml(shape: Surface) -> None:
         (ALL[14], (), ("3d",), ("x", "y", "z"), 3, 1 / 3),
         (ALL[15], ("bottom", "left", "right", "front", "back", "junction"), ("3d",), (), 2, None),
         (ALL[17], ("x0", "x1"), ("plane-strain",), (), 2, None),
+        (ALL[19], ("x0", "x1", "y0", "y1"), ("3d",), ("x", "y"), 2, None),
         (ALL[18], ("end0", "end1"), ("plane-strain",), (), 2 * math.sin(0.5), 2),
     ],
 )  # fmt: skip

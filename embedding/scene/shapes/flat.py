@@ -13,16 +13,26 @@ from embedding.scene.units import Length
 
 
 class Plate(Surface):
-    """A flat rectangle: x in [0, length], y in [0, width], z = 0, normal +z."""
+    """A flat rectangle: x in [0, length], y in [0, width], z = 0, normal +z; ``centred``, its middle is the origin."""
 
     kind: Literal["plate"] = "plate"
     length: Length
     width: Length
+    centred: bool = False
 
     @property
     def edges(self) -> tuple[str, ...]:
         """By the coordinate that is constant there, at its lower and upper end."""
         return ("x0", "x1", "y0", "y1")
+
+    @property
+    def mirrors(self) -> tuple[str, ...]:
+        """A centred plate lies across x = 0 and y = 0."""
+        return ("x", "y") if self.centred else ()
+
+    def mirror_image(self, edge: str, axis: str) -> str:
+        """The opposite edge, across x or y."""
+        return {f"{axis}0": f"{axis}1", f"{axis}1": f"{axis}0"}.get(edge, edge)
 
     @property
     def size(self) -> float:
@@ -37,7 +47,8 @@ class Plate(Surface):
     def sample_points(self) -> tuple[Point, ...]:
         """A few points of the mid-surface, in m: corners, centre and one without symmetry."""
         parts = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0), (0.5, 0.5), (0.31, 0.77))
-        return tuple((a * self.length, b * self.width, 0.0) for a, b in parts)
+        start = 0.5 if self.centred else 0.0
+        return tuple(((a - start) * self.length, (b - start) * self.width, 0.0) for a, b in parts)
 
 
 class Disc(Surface):
