@@ -5,6 +5,7 @@
     /VTKHDF                        a PartitionedDataSetCollection (VTKHDF specification 2.2), for viewers
         <block>                    UnstructuredGrid of Lagrange cells: Points, Connectivity, Offsets, Types
             PointData/<field>      all steps one after another, float32
+                                   (a mesh that a run changes: all meshes one after another, as parts)
             FieldData/<scalar>     links to the scalars below
             Steps                  NSteps, Values (step numbers), and where each step's rows begin
     /embedding                     what reproduces and explains the run
@@ -17,7 +18,8 @@
 
 Rules that make it survive a kill at any moment (``writer.py`` keeps them): rows of a field start at a chunk
 of their own, so that no checksummed chunk of an old step is ever rewritten; every chunk index exists before
-the first commit; tables that share a chunk over steps carry no checksum.
+the first commit; tables that share a chunk over steps carry no checksum; a new mesh is added to a copy of the
+file, which then takes its place.
 """
 
 from __future__ import annotations
@@ -32,7 +34,7 @@ import numpy.typing as npt
 from embedding.archive.lagrange import LagrangeBlock
 from embedding.archive.units import scalar_unit
 
-SCHEMA = 1
+SCHEMA = 2
 LIBVER = ("v110", "v110")  # chunk indices of this format grow without being rewritten
 VTKHDF_VERSION = (2, 2)
 FIELD_CHUNK = 1 << 16  # rows at most in one chunk of a field
@@ -55,6 +57,8 @@ NEWTON_COLUMNS = {
 }
 SLOTS = ("even", "odd")
 KINDS = ("PointData", "CellData", "FieldData")
+PLACES = ("Part", "Point", "Cell", "ConnectivityId")
+"""What VTKHDF asks of every step: where its mesh begins, counted in these."""
 
 
 def growable(
@@ -88,12 +92,27 @@ def put(dataset: Any, start: int, rows: Any) -> None:
     dataset[start : start + len(rows)] = rows
 
 
-def stride(points: int) -> tuple[int, int]:
-    """Rows between the beginnings of two steps of a field on ``points`` nodes, and rows of a chunk: a
-    multiple."""
+def chunk_rows(points: int) -> int:
+    """Rows of a chunk of a field on ``points`` nodes."""
     chunks = -(-points // FIELD_CHUNK)
-    chunk = -(-points // chunks)
-    return chunks * chunk, chunk
+    return -(-points // chunks)
+
+
+def table(place: str, block: str) -> str:
+    """Name of the table in /embedding/vtk of where each step begins in a ``block``: one of ``PLACES``, or the "Row" of
+    its fields."""
+    return f"first_{place.lower()}_of_{block}"
+
+
+def first_row(shared: Any, group: Any, block: str, step: int) -> int:
+    """Where the rows of ``step`` begin in the fields of ``block``, whose ``group`` has all meshes up to it; at a chunk
+    of their own, behind those of the step before."""
+    if step == 0 or not len(group["PointData"]):
+        return 0
+    chunk = int(next(iter(group["PointData"].values())).chunks[0])
+    part = int(shared[table("Part", block)][step - 1])
+    rows = -(-int(group["NumberOfPoints"][part]) // chunk) * chunk
+    return int(shared[table("Row", block)][step - 1]) + rows
 
 
 def create_record(file: Any, documents: Mapping[str, str], run: str) -> Any:
@@ -142,19 +161,32 @@ def create_blocks(file: Any, blocks: Mapping[str, LagrangeBlock]) -> None:
         group.attrs["Index"] = np.int64(index)
         group.attrs["order"] = np.int64(block.order)
         assembly[name] = h5py.SoftLink(f"/VTKHDF/{name}")
-        cells, nodes = block.cells.shape
-        sizes = {"Points": block.point_count, "Cells": cells, "ConnectivityIds": cells * nodes}
-        for key, count in sizes.items():
-            group[f"NumberOf{key}"] = np.array([count], "i8")
-        arrays = {
-            "Points": (np.asarray(block.points, "f8"), "m"),
-            "Connectivity": (block.cells.ravel().astype("i8"), "1"),
-            "Offsets": (np.arange(cells + 1, dtype="i8") * nodes, "1"),
-            "Types": (np.full(cells, block.cell_type, "u1"), "1"),
-        }
-        for key, (data, unit) in arrays.items():
+        for key, (data, unit) in _mesh(block).items():
             filters = {"compression": "gzip", "compression_opts": 1, "shuffle": True, "fletcher32": True}
-            group.create_dataset(key, data=data, chunks=True, **filters).attrs["unit"] = unit
+            limits = (None, *data.shape[1:])
+            group.create_dataset(key, data=data, chunks=True, maxshape=limits, **filters).attrs["unit"] = unit
+
+
+def add_mesh(group: Any, block: LagrangeBlock) -> dict[str, int]:
+    """Put the mesh of ``block`` behind those that its ``group`` has; returns where it begins, by ``PLACES``."""
+    begin = {"Part": len(group["NumberOfPoints"])}
+    for place in PLACES[1:]:
+        begin[place] = int(group[f"NumberOf{place}s"][...].sum())
+    for key, (data, _) in _mesh(block).items():
+        put(group[key], len(group[key]), data)
+    return begin
+
+
+def _mesh(block: LagrangeBlock) -> dict[str, tuple[npt.NDArray[Any], str]]:
+    """The arrays of one mesh, with their units."""
+    cells, nodes = block.cells.shape
+    counts = {"Points": block.point_count, "Cells": cells, "ConnectivityIds": cells * nodes}
+    return {f"NumberOf{key}": (np.array([count], "i8"), "1") for key, count in counts.items()} | {
+        "Points": (np.asarray(block.points, "f8"), "m"),
+        "Connectivity": (block.cells.ravel().astype("i8"), "1"),
+        "Offsets": (np.arange(cells + 1, dtype="i8") * nodes, "1"),
+        "Types": (np.full(cells, block.cell_type, "u1"), "1"),
+    }
 
 
 def create_fields(file: Any, fields: Mapping[str, Mapping[str, tuple[str, tuple[int, ...]]]]) -> None:
@@ -167,24 +199,22 @@ def create_fields(file: Any, fields: Mapping[str, Mapping[str, tuple[str, tuple[
     shared = file["embedding"].create_group("vtk")
     growable(shared, "values", "f8", "1")
     growable(shared, "row", "i8", "1")
-    growable(shared, "zero", "i8", "1")
-    growable(shared, "zeros", "i8", "1", shape=(1,))
     growable(shared, "one", "i8", "1")
     for block, declared in fields.items():
         group = file["VTKHDF"][block]
         steps = group.create_group("Steps", track_order=True)
         steps.attrs.create("NSteps", np.int64(0))
         steps["Values"] = shared["values"]
-        steps["PartOffsets"] = steps["PointOffsets"] = shared["zero"]
-        steps["CellOffsets"] = steps["ConnectivityIdOffsets"] = shared["zeros"]
+        for place in PLACES:
+            columns: tuple[int, ...] = (1,) if place in ("Cell", "ConnectivityId") else ()
+            steps[f"{place}Offsets"] = growable(shared, table(place, block), "i8", "1", shape=columns)
         steps["NumberOfParts"] = shared["one"]
-        points, chunk = stride(int(group["NumberOfPoints"][0]))
+        chunk = chunk_rows(int(group["NumberOfPoints"][0]))
         data = {kind: group.create_group(kind, track_order=True) for kind in KINDS}
         offsets = {kind: steps.create_group(f"{kind}Offsets", track_order=True) for kind in KINDS}
-        first = growable(shared, f"first_row_of_{block}", "i8", "1")
+        first = growable(shared, table("Row", block), "i8", "1")
         for name, (unit, shape) in declared.items():
-            field = growable(data["PointData"], name, "f4", unit, shape, chunk, checked=True)
-            field.attrs["stride"] = points
+            growable(data["PointData"], name, "f4", unit, shape, chunk, checked=True)
             offsets["PointData"][name] = first
         for name, dataset in file["embedding/scalars"].items():
             data["FieldData"][name] = dataset

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from embedding.archive.file import reading
-from embedding.archive.layout import NEWTON_COLUMNS, SLOTS
+from embedding.archive.layout import NEWTON_COLUMNS, PLACES, SLOTS, table
 from embedding.archive.records import (
     UNFINISHED,
     ArchivedCost,
@@ -194,11 +194,12 @@ class Archive:
         with reading(self.path) as file:
             return tuple(file["VTKHDF/Assembly/Scene"])
 
-    def block(self, name: str) -> ArchivedBlock:
-        """The block called ``name``. Raises ArchiveError, listing the blocks there are."""
+    def block(self, name: str, step: int = -1) -> ArchivedBlock:
+        """The block called ``name``, with the mesh of a ``step``: a run may change it. Raises ArchiveError, listing the
+        blocks there are."""
         if name not in self.blocks:
             raise ArchiveError(f"{self.path}: no block {name!r}; there are {', '.join(self.blocks)}")
-        return ArchivedBlock(self, name)
+        return ArchivedBlock(self, name, self.index(step) if len(self) else None)
 
     def verify(self) -> None:
         """Read everything that counts, so that every checksum is compared. Raises ArchiveError at the first
@@ -206,11 +207,11 @@ class Archive:
         if len(self.steps):
             self.checkpoint()
         for name in self.blocks:
-            block = self.block(name)
-            if block.points.shape[0] <= int(block.cells.max(initial=-1)):
-                raise ArchiveError(f"{self.path}: the cells of block {name!r} name nodes that do not exist")
-            for field in block.fields:
-                for number in range(len(self)):
+            for number in range(len(self)) or [-1]:
+                block = self.block(name, number)
+                if block.points.shape[0] <= int(block.cells.max(initial=-1)):
+                    raise ArchiveError(f"{self.path}: the cells of block {name!r} name nodes that do not exist")
+                for field in block.fields:
                     block.field(field, number)
 
     def index(self, step: int) -> int:
@@ -236,17 +237,24 @@ class Archive:
 
 
 class ArchivedBlock:
-    """One part of the mesh as VTK Lagrange cells, with its fields at every committed step."""
+    """One part of the mesh as VTK Lagrange cells, as it is at ``step`` (None: nothing is committed), with its fields at
+    every committed step on that mesh."""
 
-    def __init__(self, archive: Archive, name: str) -> None:
-        self.archive, self.name = archive, name
+    def __init__(self, archive: Archive, name: str, step: int | None) -> None:
+        self.archive, self.name, self.step = archive, name, -1 if step is None else step
         with reading(archive.path) as file:
             group = file["VTKHDF"][name]
+            first = dict.fromkeys(PLACES, 0)
+            if step is not None:
+                first = {place: int(file["embedding/vtk"][table(place, name)][step].item()) for place in PLACES}
+            self._part = first["Part"]
+            counts = {place: int(group[f"NumberOf{place}s"][self._part]) for place in PLACES[1:]}
+            rows = {place: slice(first[place], first[place] + counts[place]) for place in PLACES[1:]}
             self.order = int(group.attrs["order"])
-            self.points: Floats = group["Points"][...]
+            self.points: Floats = group["Points"][rows["Point"]]
             self.cell_type = int(group["Types"][0])
             nodes = int(group["Offsets"][1])
-            self.cells: npt.NDArray[np.int64] = group["Connectivity"][...].reshape(-1, nodes)
+            self.cells: npt.NDArray[np.int64] = group["Connectivity"][rows["ConnectivityId"]].reshape(-1, nodes)
             data = group.get("PointData", {})
             self.units: dict[str, str] = {field: str(column.attrs["unit"]) for field, column in data.items()}
 
@@ -255,17 +263,23 @@ class ArchivedBlock:
         """Names of the fields."""
         return tuple(self.units)
 
-    def field(self, name: str, step: int = -1) -> npt.NDArray[np.float32]:
-        """Values of a field at the nodes, (n,), (n, 3) or (n, 9) by rows of a tensor, in its SI unit (``units``).
+    def field(self, name: str, step: int | None = None) -> npt.NDArray[np.float32]:
+        """Values of a field at the nodes, (n,), (n, 3) or (n, 9) by rows of a tensor, in its SI unit (``units``), at
+        the block's own step or another one.
 
-        Raises ArchiveError if there is no such field or step, listing what there is.
+        Raises ArchiveError if there is no such field or step, listing what there is, or if the step has another mesh.
         """
         if name not in self.units:
             there = ", ".join(self.fields)
             where = f"{self.archive.path}: block {self.name!r}"
             raise ArchiveError(f"{where} has no field {name!r}; there are {there}")
-        number = self.archive.index(step)
+        number = self.archive.index(self.step if step is None else step)
         with reading(self.archive.path) as file:
+            shared = file["embedding/vtk"]
+            if int(shared[table("Part", self.name)][number]) != self._part:
+                raise ArchiveError(
+                    f"{self.archive.path}: step {number} has another mesh: ask for block({self.name!r}, {number})"
+                )
             dataset = file["VTKHDF"][self.name]["PointData"][name]
-            begin = number * int(dataset.attrs["stride"])
+            begin = int(shared[table("Row", self.name)][number])
             return cast(npt.NDArray[np.float32], dataset[begin : begin + len(self.points)])

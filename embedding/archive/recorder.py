@@ -45,29 +45,24 @@ class Recorder(Listener):
         self._writer: ArchiveWriter | None = None
         self._problem: Problem | None = None
         self._cuts: list[dict[str, Any]] = []
-        self._parts = [self._target]
 
     @property
     def path(self) -> Path:
-        """Where the record of the run is, or begins, or will be."""
-        if len(self._parts) > 1:
-            return self._parts[0]
+        """Where the record of the run is, or will be."""
         return self._writer.path if self._writer is not None else self._target
 
     def started(self, problem: Problem) -> None:
         """Build the pictured blocks; nothing is written yet."""
-        self._cuts, self._parts = [], [self._target]
-        self._begin(problem)
+        per_length = problem.reduction.name == "plane-strain"
+        self._problem, self._cuts = problem, []
+        self._writer = ArchiveWriter(self._target, self._blocks(problem), documents(problem), per_length)
 
-    def _begin(self, problem: Problem) -> None:
+    def _blocks(self, problem: Problem) -> dict[str, LagrangeBlock]:
         order = problem.scene.discretisation.order if self._order is None else self._order
-        blocks = {
+        return {
             name: LagrangeBlock(problem.mesh, block.region, order, True, problem.embed, block.within)
             for name, block in problem.blocks.items()
         }
-        per_length = problem.reduction.name == "plane-strain"
-        self._problem = problem
-        self._writer = ArchiveWriter(self._parts[-1], blocks, documents(problem), per_length)
 
     def accepted(self, state: State, record: StepRecord) -> None:
         """Commit the step."""
@@ -77,17 +72,10 @@ class Recorder(Listener):
             writer.append(record, fields, state.vectors())
 
     def remeshed(self, problem: Problem) -> None:
-        """End this archive; steps on the new mesh go to one beside it, ``<stem>.2<suffix>`` and so on."""
-        if self._writer is None:
-            return
-        if self._writer.committed:
-            number = len(self._parts) + 1
-            self._parts.append(self._target.with_stem(f"{self._target.stem}.{number}"))
-            advice = f"the space around the shell was meshed anew: later steps are in {self._parts[-1].name}"
-            result = {"name": "CONTINUED", "advice": advice, "message": advice}
-            self._writer.finish({"result": result, "error": None, "cost": None, "cuts": self._cuts})
-            self._cuts = []
-        self._begin(problem)
+        """Steps from here on are on the new mesh."""
+        self._problem = problem
+        if self._writer is not None:
+            self._writer.remesh(self._blocks(problem))
 
     def cut(self, step_number: int, fraction: float, reason: str) -> None:
         """Remember the cut; it is written with the end of the run."""

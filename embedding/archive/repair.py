@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ import h5py
 import numpy as np
 
 from embedding.archive.file import reading
-from embedding.archive.layout import LIBVER
+from embedding.archive.layout import LIBVER, table
 from embedding.errors import ArchiveError
 
 
@@ -45,7 +46,16 @@ class _Copy:
         ends = file["embedding/steps/newton_end"] if self.committed else []
         self.newton = int(ends[self.committed - 1]) if self.committed else 0
         self.finish = int(file["embedding/finish/length"][0])
+        self.ends = {name: self.end(file, name) for name in file["VTKHDF/Assembly/Scene"]}
         self.copied: dict[Any, Any] = {}
+
+    def end(self, file: Any, block: str) -> int:
+        """Where the rows that count of the fields of ``block`` end."""
+        if not self.committed:
+            return 0
+        shared, last = file["embedding/vtk"], self.committed - 1
+        part = int(shared[table("Part", block)][last])
+        return int(shared[table("Row", block)][last]) + int(file["VTKHDF"][block]["NumberOfPoints"][part])
 
     def group(self, old: Any, new: Any) -> None:
         """Fill the group ``new`` with the attributes and members of ``old``."""
@@ -71,11 +81,17 @@ class _Copy:
             old.file.copy(old, group, name)
             self.copied[place] = group[name]
 
+    def rows(self, place: list[str]) -> int:
+        """How many rows count of a dataset that grows in the group at ``place``."""
+        if place[-1] == "PointData":
+            return self.ends[place[-2]]
+        if place[1] == "VTKHDF" and len(place) == 3:
+            return sys.maxsize  # meshes
+        return {"newton": self.newton, "finish": self.finish}.get(place[-1], self.committed)
+
     def table(self, old: Any, group: Any, name: str) -> Any:
         """Copy the rows that count of a dataset that grows."""
-        block = int(old.attrs.get("stride", 1))
-        blocks = {"newton": self.newton, "finish": self.finish}.get(group.name.split("/")[-1], self.committed)
-        rows = min(blocks * block, len(old))  # the last step of a field is not padded
+        rows = min(self.rows(group.name.split("/")), len(old))
         new = group.create_dataset(
             name,
             shape=(rows, *old.shape[1:]),
@@ -84,7 +100,7 @@ class _Copy:
             dtype=old.dtype,
             fletcher32=old.fletcher32,
         )
-        pace = max(block, 1 << 16)
+        pace = 1 << 16
         for begin in range(0, rows, pace):
             new[begin : begin + pace] = old[begin : min(begin + pace, rows)]
         for key, value in old.attrs.items():

@@ -8,18 +8,12 @@ UNITS = {
     "pressure_bottom": "Pa",
     "pressure_difference": "Pa",
     "min_principal_stress": "Pa",
-    "voltage": "V",
     "displacement": "m",
 }
-EXTENSIVE = {
-    "charge": "C",
-    "field_energy": "J",
-    "elastic_energy": "J",
-    "force_x": "N",
-    "force_y": "N",
-    "force_z": "N",
-    "held_force": "N",
-}
+EXTENSIVE = {"field_energy": "J", "elastic_energy": "J", "held_force": "N"}
+OF_PARTS = {"voltage": "V", "charge": "C", "force": "N", "torque": "N m"}
+"""Of the shell, of its film, of a body, along an axis: ``charge_body0``, ``torque_z``."""
+PER_LENGTH = {"J": "J/m", "N": "N/m", "C": "C/m", "N m": "N"}
 
 
 def scalar_unit(name: str, per_length: bool = False) -> str:
@@ -27,6 +21,7 @@ def scalar_unit(name: str, per_length: bool = False) -> str:
 
     ``per_length`` says that extensive quantities (charge, energy, force) are those of a metre of cylinder.
     """
-    if name in EXTENSIVE:
-        return f"{EXTENSIVE[name]}/m" if per_length else EXTENSIVE[name]
+    unit = EXTENSIVE.get(name) or OF_PARTS.get(name.split("_")[0])
+    if unit is not None:
+        return PER_LENGTH.get(unit, unit) if per_length else unit
     return UNITS.get(name, "1")

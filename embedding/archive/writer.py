@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import uuid
 from collections.abc import Mapping, Sequence
 from contextlib import contextmanager
@@ -63,8 +64,14 @@ class ArchiveWriter:
         self.path = self.target
         self.blocks, self.documents, self.per_length = dict(blocks), dict(documents), per_length
         self.committed = 0
+        self._begin = {block: dict.fromkeys(layout.PLACES, 0) for block in self.blocks}
+        self._remeshed = False
         self._run = uuid.uuid4().hex
         self._partial = self.target.with_name(f"{self.target.name}.partial")
+
+    def remesh(self, blocks: Mapping[str, LagrangeBlock]) -> None:
+        """The steps from here on are on other meshes, of the same ``blocks`` by name."""
+        self.blocks, self._remeshed = dict(blocks), True
 
     def append(
         self, record: StepRecord, fields: Sequence[SampledField], vectors: Mapping[str, npt.NDArray[Any]]
@@ -73,11 +80,15 @@ class ArchiveWriter:
 
         The fields, scalars and vectors of the first step are those of the run.
         """
+        if self.committed and self._remeshed:
+            self._append_on_new_meshes(record, fields, vectors)
+            return
         if self.committed:
             with self._open(self.path, "r+") as file:
                 self._step(file, record, fields, vectors)
             self.committed += 1
             return
+        self._remeshed = False
         with self._open(self._partial, "w") as file:
             self._create(file)
             layout.create_scalars(file["embedding"], list(_scalars(record)), self.per_length)
@@ -89,6 +100,26 @@ class ArchiveWriter:
             self._step(file, record, fields, vectors)
         self.committed = 1
         self._place(self.target, list(self.blocks))
+
+    def _append_on_new_meshes(
+        self, record: StepRecord, fields: Sequence[SampledField], vectors: Mapping[str, npt.NDArray[Any]]
+    ) -> None:
+        """Commit a step that changes what there is in the file, in a copy that takes its place."""
+        self._copy()
+        with self._open(self._partial, "r+") as file:
+            for name, block in self.blocks.items():
+                self._begin[name] = layout.add_mesh(file["VTKHDF"][name], block)
+            del file["embedding/checkpoint"]
+            layout.create_checkpoint(file["embedding"], vectors)
+            self._step(file, record, fields, vectors)
+        self.committed, self._remeshed = self.committed + 1, False
+        self._place(self.path, list(self.blocks))
+
+    def _copy(self) -> None:
+        try:
+            shutil.copyfile(self.path, self._partial)
+        except OSError as error:
+            raise ArchiveError(f"{self.path}: cannot copy the archive for a new mesh: {error}") from error
 
     def finish(self, summary: Mapping[str, Any]) -> None:
         """Add how the run ended; ``summary`` is plain data for JSON."""
@@ -115,20 +146,20 @@ class ArchiveWriter:
         vectors: Mapping[str, npt.NDArray[Any]],
     ) -> None:
         own, step = file["embedding"], self.committed
+        shared = own["vtk"]
+        first = {name: layout.first_row(shared, file["VTKHDF"][name], name, step) for name in self.blocks}
         for field in fields:
             rows = field.values.astype("f4")
-            dataset = self._known(file, f"VTKHDF/{field.block}/PointData", field.name)
-            layout.put(dataset, step * int(dataset.attrs["stride"]), rows)
+            layout.put(self._known(file, f"VTKHDF/{field.block}/PointData", field.name), first[field.block], rows)
         for name, value in _scalars(record).items():
             layout.put(self._known(file, "embedding/scalars", name), step, [[value]])
         self._rows(own, record)
-        shared = own["vtk"]
-        tables: dict[str, Any] = {"values": record.number, "row": step, "zero": 0, "zeros": [0], "one": 1}
+        tables = {"values": record.number, "row": step, "one": 1}
+        tables |= {layout.table("Row", block): row for block, row in first.items()}
+        for block, begin in self._begin.items():
+            tables |= {layout.table(place, block): value for place, value in begin.items()}
         for name, entry in tables.items():
-            layout.put(shared[name], step, [entry])
-        for block in self.blocks:
-            points = int(file["VTKHDF"][block]["NumberOfPoints"][0])
-            layout.put(shared[f"first_row_of_{block}"], step, [step * layout.stride(points)[0]])
+            layout.put(shared[name], step, np.reshape(entry, (1, *shared[name].shape[1:])))
         slot = f"embedding/checkpoint/{layout.SLOTS[(step + 1) % 2]}"
         for name, vector in vectors.items():
             self._known(file, slot, name)[...] = vector

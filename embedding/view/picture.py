@@ -69,7 +69,7 @@ def picture(
     canvas = Canvas(view)
     edge = 0.004 * size if view == "sheet" else _edge_radius(opened, number, size)
     canvas.shell(surface, limits, edge, quarter_cut=closed and opened.run["reduction"] == "3d")
-    moved = float(np.linalg.norm(opened.block("shell").field("u", number), axis=1).max()) > MOVED * size
+    moved = float(np.linalg.norm(opened.block("shell", number).field("u"), axis=1).max()) > MOVED * size
     if moved:
         canvas.outline(shell_surface(opened, shell_field, number, deformed=False), size)
     bars = [Bar(SHELL_COLOURS, limits, shell_field, unit)]
@@ -82,7 +82,7 @@ def picture(
 
 def _telling(archive: Archive, step: int) -> str:
     """The stretch, or the displacement of a shell that is bent more than it is stretched."""
-    shell = archive.block("shell")
+    shell = archive.block("shell", step)
     stretched = float(np.abs(shell.field("stretch", step) - 1.0).max())
     moved = float(np.linalg.norm(shell.field("u", step), axis=1).max()) / archive.scales.length
     return "u" if stretched < BENT * moved else "stretch"
@@ -107,7 +107,7 @@ def _edge_radius(archive: Archive, step: int, size: float) -> float:
     """Half the thickness of the shell, as its cut is drawn; a thin shell is drawn thick enough to be seen."""
     stated = tomllib.loads(archive.scene)["shell"]["thickness"]
     thickness = float(stated) if isinstance(stated, (int, float)) else 0.0  # one that varies is drawn as a line
-    shell = archive.block("shell")
+    shell = archive.block("shell", step)
     if "thickness_stretch" in shell.units:
         thickness *= float(shell.field("thickness_stretch", step).max())
     return max(thickness / 2, 0.006 * size)

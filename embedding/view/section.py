@@ -52,7 +52,7 @@ def sections(archive: Archive, field: str, step: int) -> dict[str, Section]:
 
 
 def _section(archive: Archive, side: str, field: str, step: int) -> Section:
-    block, reduction, mirrors = archive.block(side), archive.run["reduction"], list(archive.run["mirrors"])
+    block, reduction, mirrors = archive.block(side, step), archive.run["reduction"], list(archive.run["mirrors"])
     moved = block.points + block.field("u", step)
     cells, cut = block.cells, 0.0
     if reduction == "3d":

@@ -48,7 +48,7 @@ def shell_surface(
     ``turn`` holds the angles in degrees between which an axisymmetric shell is revolved about z; ``depth``
     is the length of a cylinder along z in multiples of its radius.
     """
-    block = archive.block("shell")
+    block = archive.block("shell", step)
     fine = Tessellation(block.cells, block.cell_type, block.order, STEPS[1 if block.cell_type == LINE else 2])
     points = fine.values(block.points)
     if deformed:

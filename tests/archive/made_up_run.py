@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any
@@ -129,10 +130,11 @@ class Problem:
         self.plan = SimpleNamespace(
             decisions=(decision,), text=lambda: f"reduction: {reduction}", odd_planes=planes[2:]
         )
+        regions = {"shell": self.mesh.Boundaries("shell")}
+        regions |= {side: self.mesh.Materials(side) for side in ("outside", "inside")}
         self.blocks = {
-            "shell": SimpleNamespace(name="shell", region=self.mesh.Boundaries("shell"), codim=1),
-            "outside": SimpleNamespace(name="outside", region=self.mesh.Materials("outside"), codim=0),
-            "inside": SimpleNamespace(name="inside", region=self.mesh.Materials("inside"), codim=0),
+            name: SimpleNamespace(name=name, region=region, codim=int(name == "shell"), within=nullcontext)
+            for name, region in regions.items()
         }
 
     def embed(self, points: Any) -> Any:

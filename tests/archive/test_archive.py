@@ -14,6 +14,7 @@ import pytest
 from ngsolve import CF
 
 from embedding.archive import Recorder, open_archive, repair
+from embedding.archive.lagrange import LagrangeBlock
 from embedding.errors import ArchiveError
 from embedding.scene import Scales, Scene
 from tests.archive.made_up_run import LENGTH, Problem, State, record, solution, tell
@@ -102,6 +103,48 @@ def test_pyvista_reads_every_step_of_every_view(run: Any) -> None:
                 np.testing.assert_array_equal(grid.point_data[field], block.field(field, step))
             assert grid.field_data["stretch"] == records[step].scalars["stretch"]
             assert grid.field_data["factor_field"] == records[step].factor_field
+
+
+@pytest.mark.parametrize("reduction", REDUCTIONS)
+def test_a_run_that_changes_its_mesh(reduction: str, tmp_path: Path) -> None:
+    """Two steps on one mesh, two on a finer one, one on a coarser: each comes back on its own, also for viewers."""
+    pyvista = pytest.importorskip("pyvista")
+    path, meshes = tmp_path / "run.vtkhdf", [Problem(reduction, size) for size in (0.9, 0.7, 1.2)]
+    steps = [record(number, 5) for number in range(1, 6)]
+    on = [meshes[k] for k in (0, 0, 1, 1, 2)]
+    recorder = Recorder(path)
+    recorder.started(on[0])
+    for number, (one, problem) in enumerate(zip(steps, on, strict=True)):
+        if number and problem is not on[number - 1]:
+            recorder.remeshed(problem)
+        recorder.accepted(State(problem, one.factor_field), one)
+    recorder.finished(solution(steps))
+    for again in (False, True):
+        if again:
+            assert repair(path) == 5
+        archive = open_archive(path)
+        archive.verify()
+        assert archive.steps == tuple(steps)
+        for name in archive.blocks:
+            reader = pyvista.get_reader(path.with_name(f"run.{name}.vtkhdf"))
+            for step, problem in enumerate(on):
+                block = archive.block(name, step)
+                known = LagrangeBlock(problem.mesh, problem.blocks[name].region, 2, True, problem.embed)
+                np.testing.assert_array_equal(block.points, known.points)
+                np.testing.assert_array_equal(block.cells, known.cells)
+                reader.reader.SetStep(step)
+                reader.reader.Update()
+                grid = pyvista.wrap(reader.reader.GetOutputDataObject(0))
+                np.testing.assert_array_equal(grid.cells_dict[block.cell_type], block.cells)
+                for field in State(problem, steps[step].factor_field).fields():
+                    if field.block == name:
+                        values = block.field(field.name)
+                        assert len(values) == len(known.points)
+                        np.testing.assert_array_equal(grid.point_data[field.name], values)
+    for name, vector in archive.checkpoint().items():
+        np.testing.assert_array_equal(vector, State(on[-1], 1.0).vectors()[name])
+    with pytest.raises(ArchiveError, match=r"step 0 has another mesh: ask for block\('outside', 0\)"):
+        archive.block("outside").field("phi", 0)
 
 
 def test_every_array_has_a_unit(run: Any) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from embedding import Ambient, Electrode, Faces, NeoHookean, Scene, Shell, Sphere, Stage, solve
 from embedding.archive.units import scalar_unit
 
-PLAIN = {"stretch", "stretch_max", "stretch_min", "volume_ratio", "min_jacobian", "unstable_modes"}
+PLAIN = {"stretch", "stretch_max", "stretch_min", "volume_ratio", "min_jacobian", "unstable_modes", "remeshings"}
 
 
 def test_no_scalar_without_its_unit() -> None:
@@ -19,3 +19,6 @@ def test_no_scalar_without_its_unit() -> None:
     names = set(solve(scene).steps[-1].scalars)
     assert {name for name in names if scalar_unit(name) == "1"} == PLAIN
     assert scalar_unit("held_force", per_length=True) == "N/m"
+    assert [scalar_unit(name) for name in ("voltage_jump", "charge_body0", "force_body1_x", "torque_z")] == [
+        "V", "C", "N", "N m"]  # fmt: skip
+    assert scalar_unit("torque_z", per_length=True) == "N"
