@@ -12,14 +12,15 @@ from embedding.ambient.patches import Cycle, VertexPatches
 from embedding.geometry.spaces import as_mask
 
 Linear = Literal["auto", "direct", "iterative"]
-LARGE = 60_000
-"""Free unknowns from where on "auto" iterates, by measurement: docs page "Large ambients"."""
+LARGE = {2: 1_000_000, 3: 25_000}
+"""Free unknowns from where on "auto" iterates, by dimension, from the measurements on the docs page "Large ambients":
+in 3D where motion, potential and joint step together take as long either way, in 2D beyond all that was measured."""
 TOLERANCE, MOST_ITERATIONS = 1e-10, 200
 
 
-def iterates(linear: Linear, unknowns: int) -> bool:
-    """Is a definite system with so many free ``unknowns`` solved by iteration?"""
-    return linear == "iterative" or (linear == "auto" and unknowns > LARGE)
+def iterates(linear: Linear, unknowns: int, dimension: int) -> bool:
+    """Is a definite system with so many free ``unknowns`` on a mesh of the ``dimension`` solved by iteration?"""
+    return linear == "iterative" or (linear == "auto" and unknowns > LARGE[dimension])
 
 
 class Inverter:
@@ -27,7 +28,7 @@ class Inverter:
 
     def __init__(self, space: Any, free: Any, linear: Linear = "auto") -> None:
         self._free = free
-        large = iterates(linear, int(free.NumSet()))
+        large = iterates(linear, int(free.NumSet()), space.mesh.dim)
         self._patches = VertexPatches(space, as_mask(free)) if large else None
 
     def __call__(self, matrix: Any) -> Any:

@@ -46,7 +46,7 @@ class PotentialSolve:
             self.form += Variation(term).Compile()
         self._free = np.concatenate([self._spaces.free[name] for name in self._names])
         # Without a potential around the shell there is nothing to iterate on.
-        large = "phi" in self._names and iterates(linear, int(self._free.sum()))
+        large = "phi" in self._names and iterates(linear, int(self._free.sum()), lagrangian.domain.mesh.dim)
         self.iterative = PotentialSolver(space, self._free) if large else None
         self._solver = self.iterative or DirectSolver(as_bits(self._free), symmetric=True)
         self._state = GridFunction(space)

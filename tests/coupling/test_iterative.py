@@ -46,8 +46,9 @@ def potential_iterations(system: System) -> int:
 
 
 def test_the_software_chooses_by_size_and_can_be_told() -> None:
-    assert [iterates("auto", n) for n in (LARGE, LARGE + 1)] == [False, True]
-    assert iterates("iterative", 1) and not iterates("direct", 10**7)
+    for dimension, large in LARGE.items():
+        assert [iterates("auto", n, dimension) for n in (large, large + 1)] == [False, True]
+    assert iterates("iterative", 1, 2) and not iterates("direct", 10**7, 3)
     for problem, kind in ((iterating(), JointSolver), (coupled(), DirectSolver)):
         assert isinstance(problem.system._linear_solver(()), kind)
 
