@@ -111,6 +111,12 @@ class AmbientMotion:
         """The vectors that make up the state of the motion: faces, interior, and where the faces were last settled."""
         return [*(y.vec.FV().NumPy() for y in self.y.values()), self.w.vec.FV().NumPy(), self._settled]
 
+    def continue_from(self, other: AmbientMotion, faces: Mapping[str, Array]) -> None:
+        """Take over the interior that ``other``, on the same mesh, has around ``faces``, displacements by side."""
+        self.w.vec.data = other.w.vec
+        self._settled[:] = np.concatenate([faces[side] - self._at_rest(side) for side in self.y])
+        self._place(self._settled)
+
     def _face(self) -> Array:
         return np.concatenate([np.array(y.vec.FV().NumPy()) for y in self.y.values()])
 

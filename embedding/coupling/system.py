@@ -145,11 +145,22 @@ class System:
 
     def follow(self) -> bool:
         """Let the ambient's mesh follow the faces; False if elements would turn over."""
+        places = self._places()
+        return all(motion.follow(places) for motion in self._different_motions)
+
+    def ambient_as_in(self, other: System) -> None:
+        """Let the interior of the ambient be where ``other``, on the same mesh and in the same state, has it."""
+        places = self._places()
+        for motion, known in zip(self._different_motions, other._different_motions, strict=True):
+            motion.continue_from(known, places)
+
+    def _places(self) -> dict[str, npt.NDArray[np.float64]]:
+        """Displacements of the faces by side."""
         places = {}
         for face in self.unknowns.faces:
             self.unknowns.displacement(face, self.tractions[face].displacement.vec)
             places[SIDES[face]] = np.array(self.tractions[face].displacement.vec.FV().NumPy())
-        return all(motion.follow(places) for motion in self._different_motions)
+        return places
 
     @property
     def _displacement(self) -> npt.NDArray[np.float64]:

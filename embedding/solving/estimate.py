@@ -33,7 +33,8 @@ THEORY = 0.8
 CLOSED_FACES = 1.6
 SHEAR = 0.6
 BENT = 0.1
-NEWTON_STEPS = 2
+NEWTON_STEPS, NEAR = 2, 0.01
+"""Steps on the next order. After one shorter than ``NEAR`` (shell sizes) its tangent serves for the other as well."""
 
 
 def estimate_error(problem: Problem, target: Target, steps: Sequence[StepRecord]) -> ErrorEstimate:
@@ -131,6 +132,7 @@ class Enriched(Problem):
         counted, present = self.system.unknowns.bending, problem.system.unknowns.bending
         if isinstance(counted, CurveBending) and isinstance(present, CurveBending):
             counted.continue_from(present)
+        self.system.ambient_as_in(problem.system)
         self.system.restore(self.system.save())  # the state did not get here by Newton steps
 
     def _carry(self, name: str, problem: Problem) -> None:
@@ -153,14 +155,19 @@ class Enriched(Problem):
         """Take Newton steps at ``target``; False if they cannot be taken."""
         system = self.system
         system.load(target.mechanical, target.field, target.volume, target.pressure)
+        size = math.inf
         try:
             for _ in range(NEWTON_STEPS):
                 if not system.follow():
                     return False
                 if system.potential is not None:
                     system.potential.solve()
-                step, _ = system.newton_update()
-                system.unknowns.state.vec.data += step
+                residual = system.residual()
+                if not size < NEAR:
+                    system.linearise()
+                step = system.solve(residual)
+                size = system.displacement_norm(step)
+                system.unknowns.state.vec.data -= step
         except LinearSolverError:
             return False
         return system.follow()

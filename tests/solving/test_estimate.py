@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
 from embedding import (
@@ -21,9 +22,11 @@ from embedding import (
     solve,
 )
 from embedding.scene import EPSILON_0
+from embedding.solving.estimate import Enriched
 from problems.exact import cylinder, sphere
 from problems.exact.charged_balloon import ChargedBalloon
 from problems.exact.material import neo_hookean
+from tests.coupling.scenes import coupled, distort
 
 MU = 1e5
 RADIUS = 0.02
@@ -73,3 +76,15 @@ def check(solution: object, exact: float, quantity: str) -> None:
     assert error.value == pytest.approx(sum(error.parts.values()))
     true = abs(solution[quantity][-1] - exact) / exact  # type: ignore[index]
     assert true <= error.value <= 8 * true
+
+
+def test_the_next_order_starts_with_the_ambient_where_it_is() -> None:
+    """The interior of the ambient goes along, and need not walk again to where the faces are."""
+    problem = coupled("3d", "conductor")
+    distort(problem, 0.3)
+    richer = Enriched(problem)
+    for side, motion in problem.system.motions.items():
+        follower = richer.system.motions[side]
+        assert np.array_equal(follower.w.vec.FV().NumPy(), motion.w.vec.FV().NumPy())
+        assert richer.system.follow()
+        assert np.array_equal(follower.w.vec.FV().NumPy(), motion.w.vec.FV().NumPy())
