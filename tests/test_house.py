@@ -12,7 +12,7 @@ import embedding
 ROOT = Path(embedding.__file__).parent
 FLOORS = (
     "errors", "scene", "geometry", "shell", "ambient", "coupling", "plan", "solving", "archive", "view", "fit", "api",
-    "cli",
+    "studies", "cli",
 )  # fmt: skip
 FILES = sorted(ROOT.rglob("*.py"))
 

@@ -164,3 +164,60 @@ def fit(
         print_json({**fit_summary(found), "picture": picture})
     else:
         print_fit(found, picture)
+
+
+@app.command
+def study(
+    file: Annotated[Path, Parameter(help="Study file (TOML).")],
+    /,
+    *,
+    folder: Annotated[Path | None, Parameter(help="Folder of the results; default the study file's name.")] = None,
+    workers: Annotated[int | None, Parameter(help="Cases solved at once; default one for each processor.")] = None,
+    as_json: AsJson = False,
+    progress: Annotated[bool, Parameter(help="Show the progress on standard error.")] = True,
+) -> None:
+    """Solve the cases of a study that are not done yet, each in a process of its own.
+
+    A case that fails is a row with its reason, and is tried again the next time.
+    """
+    if workers is not None and workers < 1:
+        raise UsageError(f"--workers: {workers} is not allowed: must be at least 1")
+
+    from embedding.cli.study import print_study, study_summary
+    from embedding.studies import load_study, run_study
+
+    target = Path(file.stem) if folder is None else folder
+    result = run_study(load_study(file), target, workers=workers, progress=progress)
+    if as_json:
+        print_json(study_summary(result))
+    else:
+        print_study(result)
+
+
+@app.command
+def table(
+    folder: Annotated[Path, Parameter(help="Folder written by `embedding study`.")],
+    /,
+    *,
+    csv: Annotated[Path | None, Parameter(help="Also write the table into this CSV file.")] = None,
+    parquet: Annotated[Path | None, Parameter(help="Also write the table into this Parquet file.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Print the table of a study, as far as it has come, in SI units."""
+    if csv is not None:
+        check_output("--csv", csv, ".csv")
+    if parquet is not None:
+        check_output("--parquet", parquet, ".parquet")
+
+    from embedding.cli.study import print_table, study_summary
+    from embedding.studies import open_study
+
+    result = open_study(folder)
+    for path, write in ((csv, result.to_csv), (parquet, result.to_parquet)):
+        if path is not None:
+            with whole_file(path) as file:
+                write(file)
+    if as_json:
+        print_json({**study_summary(result), "csv": csv, "parquet": parquet})
+    else:
+        print_table(result)

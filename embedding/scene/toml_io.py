@@ -24,7 +24,7 @@ def load_scene(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> S
         SceneError: the file cannot be read, is not TOML, or is not a scene; or an override does not fit.
     """
     source = os.fspath(path)
-    table = read_table(_read_text(source), source)
+    table = read_table(read_text(source), source)
     return Scene.from_table(apply_overrides(table, overrides, source), source)
 
 
@@ -48,7 +48,12 @@ def write_table(table: Mapping[str, Any]) -> str:
     return tomli_w.dumps(table)
 
 
-def _read_text(source: str) -> str:
+def read_text(source: str) -> str:
+    """The text of a file of this package.
+
+    Raises:
+        SceneError: the file cannot be read, is too large, or is not UTF-8.
+    """
     try:
         with Path(source).open("rb") as file:
             data = file.read(MAX_BYTES + 1)

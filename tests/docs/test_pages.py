@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -10,9 +13,12 @@ import pytest
 
 from embedding import Scene
 from embedding.cli.commands import app
+from embedding.studies import Study, cases_of, load_study, open_study
+from problems import dielectric_balloon
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
+STUDIES = ROOT / "docs" / "studies.md"
 
 
 def blocks(page: Path, language: str) -> list[str]:
@@ -20,11 +26,15 @@ def blocks(page: Path, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL)
 
 
+SCENES = [page for page in PAGES if page != STUDIES and blocks(page, "toml")]
+SCRIPTS = [page for page in PAGES if page != STUDIES and blocks(page, "python")]
+
+
 def named(page: Path) -> str:
     return str(page.relative_to(ROOT))
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if blocks(page, "python")], ids=named)
+@pytest.mark.parametrize("page", SCRIPTS, ids=named)
 def test_scripts_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The blocks of a page are one script."""
     monkeypatch.chdir(tmp_path)
@@ -35,7 +45,7 @@ def test_scripts_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert names["solution"]["stretch"][-1] == pytest.approx(1.458, abs=2e-3)
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if blocks(page, "toml")], ids=named)
+@pytest.mark.parametrize("page", SCENES, ids=named)
 def test_scenes_load(page: Path) -> None:
     for text in blocks(page, "toml"):
         assert Scene.from_toml(text, source=named(page)).name
@@ -57,5 +67,38 @@ def test_readme_commands_exist() -> None:
         assert Scene.from_toml((ROOT / scene).read_text(), source=scene)
     assert (ROOT / "setup.sh").is_file()
     documented = set(re.findall(r"`embedding (\w+)", (ROOT / "docs" / "run.md").read_text()))
-    assert documented == {"run", "explain", "info", "plot", "fit"}
+    assert documented == {"run", "explain", "info", "plot", "fit", "study", "table"}
     assert all(app[name] for name in documented)
+
+
+def written_study(folder: Path) -> Study:
+    """The study of its page, in a folder that holds the problems, too."""
+    (folder / "problems").symlink_to(ROOT / "problems")
+    (text,) = blocks(STUDIES, "toml")
+    (folder / "pull_in.toml").write_text(text)
+    return load_study(folder / "pull_in.toml")
+
+
+def test_the_study_loads(tmp_path: Path) -> None:
+    scenes = [case.scene for case in cases_of(written_study(tmp_path))]
+    assert [scene.shell.thickest for scene in scenes if scene] == [5e-4, 5e-4, 1e-3, 1e-3]
+
+
+@pytest.mark.slow
+def test_the_study_finds_the_pull_in_of_the_thin_balloon(tmp_path: Path) -> None:
+    """Against the closed form of the thin balloon, Zhu, Cai and Suo (2010)."""
+    written_study(tmp_path)
+    (script,) = blocks(STUDIES, "python")
+    (tmp_path / "script.py").write_text(script)
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    subprocess.run([sys.executable, "script.py"], cwd=tmp_path, env=environment, check=True)
+    result = open_study(tmp_path / "pull_in")
+    for case, row in zip(cases_of(result.study), result.rows, strict=True):
+        assert (row.status, row.reason) == ("done", "")
+        assert case.scene is not None
+        pressure = case.scene.loads.pressure_bottom
+        assert isinstance(pressure, float)
+        limit = dielectric_balloon.exact(case.scene, "membrane").pull_in(pressure)
+        assert limit is not None
+        assert row.quantities["pull_in"] == pytest.approx(limit.load, rel=1e-5)
+        assert row.quantities["stretch"] == pytest.approx(limit.stretch, rel=1e-4)

@@ -1,0 +1,105 @@
+"""A study: a scene, the parameters that change in it, and what is asked of every case. Checked when it is made."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import AfterValidator, BeforeValidator, Discriminator, Tag, model_validator
+
+from embedding.scene import Scene
+from embedding.scene.messages import refusal
+from embedding.scene.options import Fixed
+from embedding.scene.part import Part, kind_under
+from embedding.scene.texts import Name
+from embedding.scene.units import Number
+from embedding.studies.parameters import are_bounds, stated_parameters
+from embedding.studies.quantities import Quantity, stated_quantities
+
+Count = Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=1024))]
+Seconds = Annotated[float, BeforeValidator(Number("time", "s", "10 min", above=0.0))]
+
+RESERVED = ("case", "status", "reason", "seconds", "estimated_error")
+"""Columns that every table has."""
+
+
+class Grid(Part):
+    """Every combination of the parameters' values; the last parameter varies fastest."""
+
+    kind: Literal["grid"] = "grid"
+
+
+class Rows(Part):
+    """The first values of all parameters, the second ones, and so on: lists of equal length."""
+
+    kind: Literal["rows"] = "rows"
+
+
+class LatinHypercube(Part):
+    """``samples`` cases between the parameters' bounds: each parameter has one value in each of as many equal parts.
+
+    The same ``seed`` gives the same cases (scipy.stats.qmc.LatinHypercube).
+    """
+
+    kind: Literal["latin-hypercube"] = "latin-hypercube"
+    samples: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=1_000_000))]
+    seed: Annotated[int, BeforeValidator(Number(whole=True, at_least=0, at_most=2**31))] = 0
+
+
+Design = Annotated[
+    Annotated[Grid, Tag("grid")] | Annotated[Rows, Tag("rows")] | Annotated[LatinHypercube, Tag("latin-hypercube")],
+    Discriminator(kind_under("kind")),
+]
+
+
+class Limits(Part):
+    """What a case may take: ``seconds`` of wall time (None: any), and ``threads``.
+
+    ``workers`` cases are solved at once, by default as many as there are processors for.
+    """
+
+    seconds: Seconds | None = None
+    workers: Count | None = None
+    threads: Count = 1
+
+
+class Study(Part):
+    """Cases that differ from ``scene`` in ``parameters``, combined by ``design``, and the ``quantities`` asked of each.
+
+    ``parameters`` holds a list of values, or bounds ``{low, high}``, for each dotted path into the scene;
+    ``quantities`` a text such as ``"voltage at limit"`` for each name.
+
+    Raises:
+        SceneError: on construction, listing every problem with the path of its field.
+    """
+
+    name: Name = "study"
+    scene: Scene
+    parameters: Annotated[dict[str, Any], BeforeValidator(stated_parameters), AfterValidator(Fixed)]
+    design: Design = Grid()
+    quantities: Annotated[dict[str, str], BeforeValidator(stated_quantities), AfterValidator(Fixed)]
+    limits: Limits = Limits()
+
+    @property
+    def wanted(self) -> dict[str, Quantity]:
+        """The quantities by name."""
+        return {name: Quantity.parse(text) for name, text in self.quantities.items()}
+
+    @model_validator(mode="after")
+    def _fits_together(self) -> Self:
+        for name in self.quantities:
+            if name in RESERVED or name in self.parameters:
+                raise refusal(f"every table has a column {name} already", field=f"quantities.{name}", value=name)
+        sampled = isinstance(self.design, LatinHypercube)
+        first = next(iter(self.parameters.values()))
+        for path, values in self.parameters.items():
+            field = f"parameters.{path}"
+            if are_bounds(values) and not sampled:
+                reason = f'bounds are for a design of kind "latin-hypercube"; a "{self.design.kind}" needs a list'
+                raise refusal(reason, field=field, value=values)
+            if sampled and not are_bounds(values):
+                raise refusal("a latin hypercube needs bounds { low = ..., high = ... }", field=field, value=values)
+            if isinstance(self.design, Rows) and len(values) != len(first):
+                reason = f"there are {len(values)} values, and {len(first)} of the first parameter; rows need as many"
+                raise refusal(reason, field=field, value=values)
+        return self
+
