@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from ngsolve import BBND, GridFunction, VectorH1
+from scipy.spatial import cKDTree
 
 from embedding.errors import SceneError
 from embedding.geometry import meshing
@@ -28,6 +29,8 @@ from embedding.geometry.polyhedron import Polyhedron
 from embedding.geometry.surroundings import BodyError
 
 Floats = npt.NDArray[np.float64]
+TOUCHING = 1e-6
+"""Vertices closer than this, in shell sizes, cannot be told apart."""
 GROWTHS = (1.0, 0.7)
 """Gradings that are tried, over the one asked for."""
 
@@ -74,6 +77,8 @@ def _around(domain: Domain, displacement: Any, sizes: MeshSizes) -> Remeshed:
     made = meshing.around(polyhedron.outline(), domain.reduction, sizes, up)
     made.mesh.Curve(sizes.order)
     fresh = Domain(made.mesh, domain.reduction, domain.shape, sizes, made.faces, made.rim_vertices, made.rim_edges)
+    if len(fresh.rim_vertices) != len(domain.rim_vertices):
+        raise RemeshingError("the shell touches itself")
     matching = Matching.of(old, moved, Facets(made.mesh, fresh.shell))
     base = _base(domain, displacement, matching)
     made.mesh.SetDeformation(base.reference)
@@ -87,6 +92,8 @@ def _polyhedron(domain: Domain, moved: Floats) -> Polyhedron:
     corners = corners.reshape(facets.corners.shape)
     places = np.zeros((len(vertices), mesh.dim))
     places[corners] = moved
+    if cKDTree(places).query_pairs(TOUCHING):
+        raise RemeshingError("the shell touches itself")
     short = {int(vertex): number for number, vertex in enumerate(vertices)}
     names = {}
     for element in mesh.Elements(BBND):

@@ -80,13 +80,13 @@ class ArcStage:
                     return Result.MAX_STEPS
                 if walk.here.place > options.max_arc:
                     return Result.MAX_ARC
-                walk.at_once = Result.INVERTED_AMBIENT if self.session.may_remesh else None
+                walk.at_once = Result.INVERTED_AMBIENT if self.session.tired else None
                 reason = self._step(walk)
                 faded = self.path.faded
                 if reason is not None:
                     self.path.restore(walk.here.saved)
                 worn = self.session.worn and not walk.done
-                if worn or (reason is Result.INVERTED_AMBIENT and self.session.may_remesh):
+                if worn or (reason is Result.INVERTED_AMBIENT and self.session.tired):
                     walk, moved = self._remeshed(walk, partial(_goal, goals, number))
                     reason = None if moved else reason
                 if reason is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -44,11 +44,23 @@ def response_rate(problem: Problem, here: Target, towards: Target) -> float:
 
 @dataclass(frozen=True)
 class Landmark:
-    """An accepted state about one planned step before the end of the road: saved state, load, fraction of the stage."""
+    """An accepted state about one planned step before the end of the road: saved state, load, fraction of the stage;
+    once the mesh it belongs to is gone, how fast the shell moved there."""
 
     saved: Any
     target: Target
     fraction: float
+    rate: float | None = None
+
+    def measured(self, problem: Problem, end: Target) -> Landmark:
+        """The landmark with its rate per unit of stage; the present state is left as it was, at the landmark's load."""
+        if self.rate is not None:
+            return self
+        saved = problem.system.save()
+        problem.system.restore(self.saved)
+        rate = response_rate(problem, self.target, end) / (1 - self.fraction)
+        problem.system.restore(saved)
+        return replace(self, rate=rate)
 
 
 def diagnose(
@@ -63,13 +75,9 @@ def diagnose(
     """
     if reason is Result.COMPRESSIVE_MEMBRANE or end.volume is not None or landmark is None:
         return reason
-    system = problem.system
-    saved = system.save()
-    system.restore(landmark.saved)
-    before = response_rate(problem, landmark.target, end) / (1 - landmark.fraction)
-    system.restore(saved)
+    before = landmark.measured(problem, end).rate
     now = response_rate(problem, here, end) / (1 - fraction)
-    if now > STEEP * before:
+    if before is not None and now > STEEP * before:
         moving_field = _has_sources(problem) and end.field != here.field
         return Result.PULL_IN if moving_field else Result.LIMIT_POINT
     return reason

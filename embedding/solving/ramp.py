@@ -21,14 +21,16 @@ def ramp(session: Session, stage: Stage, start: Target, end: Target, steps: int)
     for fraction in stepper.proposals():
         target = end.between(start, fraction)
         reason = step(session, stage, target)
-        if reason is Result.INVERTED_AMBIENT and _remeshed(session):
-            reason, landmark = step(session, stage, target), None
+        if reason is Result.INVERTED_AMBIENT and session.tired:
+            landmark = None if landmark is None else landmark.measured(session.problem, end)
+            reason = step(session, stage, target) if _remeshed(session) else reason
         if reason is None:
-            if session.worn and _remeshed(session):
-                landmark = None
             if landmark is None or stepper.relative_length >= 0.5:
                 landmark = Landmark(session.problem.system.save(), target, fraction)
             stepper.accept()
+            if session.worn and fraction < 1.0:
+                landmark = landmark.measured(session.problem, end)
+                _remeshed(session)
         elif not stepper.cut():
             return diagnose(session.problem, reason, session.at, end, stepper.accepted, landmark)
         else:
@@ -38,8 +40,6 @@ def ramp(session: Session, stage: Stage, start: Target, end: Target, steps: int)
 
 def _remeshed(session: Session) -> bool:
     """Has the ambient a new mesh around the last accepted state now?"""
-    if not session.may_remesh:
-        return False
 
     def settle(_: Problem) -> bool:
         outcome = session.solver.solve(lambda iteration: session.iterated(session.at, iteration))

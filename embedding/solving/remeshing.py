@@ -10,8 +10,9 @@ from embedding.geometry.remeshing import remeshed
 from embedding.shell.bending import CurveBending
 from embedding.solving.problem import Array, Problem
 
-WORN = 0.12
-"""Smallest det F of the ambient's motion below which its mesh is made anew after a step."""
+WORN, TIRED = 0.12, 0.5
+"""Smallest det F of the ambient's motion below which its mesh is made anew: after a step, and where the next step would
+turn elements over."""
 ON_NODES = ("u", "y_t", "y_b", "o_t", "o_b", "tau_t", "tau_b")
 
 

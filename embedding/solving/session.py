@@ -17,7 +17,7 @@ from embedding.solving.events import Iteration, Listener, StepRecord
 from embedding.solving.newton import Newton
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
-from embedding.solving.remeshing import WORN, Remeshed
+from embedding.solving.remeshing import TIRED, WORN, Remeshed
 from embedding.solving.result import Result
 from embedding.solving.solution import CriticalPoint
 from embedding.solving.stability import countable
@@ -75,11 +75,15 @@ class Session:
     @property
     def worn(self) -> bool:
         """Shall the ambient have a new mesh before the next step?"""
-        return self.may_remesh and self.problem.system.min_jacobian < WORN
+        return self._may_remesh and self.problem.system.min_jacobian < WORN
 
     @property
-    def may_remesh(self) -> bool:
-        """Has the shell moved since the ambient's mesh was made?"""
+    def tired(self) -> bool:
+        """Is a step that turns elements over worth a new mesh? On a good one such a step is wild, and to be cut."""
+        return self._may_remesh and self.problem.system.min_jacobian < TIRED
+
+    @property
+    def _may_remesh(self) -> bool:
         once = self.problem.plan.coupling == "once"  # whose forces are those of the undeformed shape
         return bool(self.problem.system.motions) and not once and self._meshed_at != len(self.steps)
 
@@ -91,20 +95,23 @@ class Session:
             problem = Remeshed(self.problem)
         except RemeshingError as error:
             self.detail = f"there is no new mesh of the ambient around this shape ({error})"
-            self._meshed_at = len(self.steps)
-            return False
+            return self._stay()
         self._work_on(problem)
         self.newton.clock, self.solver.clock = kept[2].clock, kept[3].clock
         self.load(self.at)
         if not settle(problem):
             self.problem, self.state, self.newton, self.solver = kept
-            self.load(self.at)
-            self._meshed_at = len(self.steps)
-            return False
+            return self._stay()
         self.remeshings, self._meshed_at = self.remeshings + 1, len(self.steps)
         for listener in self.listeners:
             listener.remeshed(problem)
         return True
+
+    def _stay(self) -> bool:
+        """Go on with the mesh at hand, and do not try again before the next step."""
+        self.load(self.at)
+        self._meshed_at = len(self.steps)
+        return False
 
     def iterated(self, target: Target, iteration: Iteration) -> None:
         """Count a Newton step towards ``target``, and tell the listeners."""
