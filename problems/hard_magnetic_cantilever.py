@@ -6,12 +6,8 @@ tip: they attract each other, which softens the beam a little.
 
 Reference: `problems.exact.hard_magnetic_elastica`, an inextensible beam; a strip in plane strain has the stiffness
 mu T^3 / 3 and stretches a little, which vanishes as T^2. The experiment is `problems.published.hard_magnetic_beam`.
-The poles of a strip are lines of b = B_r T per length at the distance L, and draw the tip to the clamp with
-P = b^2 / (2 pi mu0 L). With k^2 = P L^2 / EI the small deflection under an end force grows by
-
-    3 (1 - k cot k) / k^2
-
-(linear bending of a cantilever with a force that points to the clamp; R. Feynman's line charges, Lectures II, 5).
+The poles of a strip are lines; where its remanence fades out at the ends, their attraction is that of
+`problems.exact.magnetised_strip`.
 
 Run: about twenty seconds.
 """
@@ -27,12 +23,15 @@ import numpy as np
 from embedding import Plate, Scene, Solution, Strip, load_scene, solve
 from embedding.scene.scales import MU_0
 from problems.common import Array, Probe, Reading, print_files, print_steps
+from problems.exact import magnetised_strip
 from problems.exact.hard_magnetic_elastica import Tip, tip
 from problems.published.hard_magnetic_beam import ZHAO
 
 SCENE = Path(__file__).with_suffix(".toml")
 REMANENCE = 143.2566e-3
 """In T, as in the scene file."""
+SHEAR_MODULUS = 227.25e3
+"""In Pa, of a strip that is as stiff in plane strain as the beam of 303 kPa."""
 SCATTER = 0.052
 """Of measured deflections over the length: 3 to 5 per cent of the digitisation; the elastica is off by up to 0.042."""
 
@@ -115,7 +114,7 @@ def own_field(strength: float, *changes: str) -> float:
     """How much more the strip of the experiment bends with its own field, at an applied field in A/m: a ratio."""
     beam = (
         "shell.shape={kind='strip', length='17.2 mm'}",
-        "shell.material.shear_modulus=227.25 kPa",
+        f"shell.material.shear_modulus={SHEAR_MODULUS!r}",
         f"shell.remanence={FADING}",
         f"ambient.applied_field=[0, {strength!r}, 0]",
         "path=[{steps = 1}]",
@@ -126,11 +125,10 @@ def own_field(strength: float, *changes: str) -> float:
 
 
 def own_field_of_poles() -> float:
-    """The same of two line charges and small deflections, see the head of the module."""
-    length, thickness, modulus = ZHAO.length, ZHAO.thickness, 227.25e3
-    pull = (REMANENCE * thickness) ** 2 / (2.0 * math.pi * MU_0 * length)
-    k = math.sqrt(pull * length**2 / (modulus * thickness**3 / 3.0))
-    return 3.0 * (1.0 - k / math.tan(k)) / k**2
+    """The same of a thin strip and small deflections."""
+    stiffness = SHEAR_MODULUS * ZHAO.thickness**3 / 3.0
+    strength = (REMANENCE * ZHAO.thickness) ** 2 / (MU_0 * stiffness) * ZHAO.length
+    return magnetised_strip.own_field(strength, *magnetised_strip.fading(ZHAO.thickness / ZHAO.length))
 
 
 if __name__ == "__main__":

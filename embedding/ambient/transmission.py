@@ -22,7 +22,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ngsolve import CF, InnerProduct, sqrt
+from ngsolve import CF, Cof, Det, IfPos, InnerProduct, OuterProduct, sqrt
 
 from embedding.shell.kinematics import Kinematics
 
@@ -41,12 +41,15 @@ class Matter:
 
     def coenergy(self, field_squared: Any, pulled_back: Any) -> Any:
         """Co-energy per reference volume for |h|^2 and the pulled-back field H (mesh components)."""
+        stored = self.stored(field_squared)
+        return stored if self.remanence is None else stored + InnerProduct(CF(self.remanence), pulled_back)
+
+    def stored(self, field_squared: Any) -> Any:
+        """Co-energy per reference volume without that of the remanence."""
         contrast = CF(1.0 if self.contrast is None else self.contrast)
         if self.saturation is None:
-            stored = 0.5 * contrast * field_squared
-        else:
-            stored = 0.5 * field_squared + self._magnetised(contrast - 1, field_squared)
-        return stored if self.remanence is None else stored + InnerProduct(CF(self.remanence), pulled_back)
+            return 0.5 * contrast * field_squared
+        return 0.5 * field_squared + self._magnetised(contrast - 1, field_squared)
 
     def excess(self, field_squared: Any, pulled_back: Any, medium: float) -> Any:
         """Co-energy above that of the ``medium`` around (its contrast) in the same field."""
@@ -73,6 +76,41 @@ def shell_field_energy(
     field = given - 1 / thickness * jump * kinematics.area_vector - tangential
     pulled_back = pulled_back + kinematics.spatial_gradient.trans * given
     return thickness * matter.coenergy(InnerProduct(field, field), pulled_back)
+
+
+def tapered_field_energy(
+    kinematics: Kinematics,
+    director: Any,
+    thickness: Any,
+    matter: Matter,
+    jump: Any,
+    mean_gradient: Any,
+    given: Any | None = None,
+    medium: float = 1.0,
+) -> Any:
+    """As :func:`shell_field_energy`, where faces that meet in a rim lie at +- T/2 times ``director``, not lambda n.
+
+    With G = F + director (x) N the field is h = G^{-T} H, and the space between the faces is det G of the shell's. That
+    much of the ``medium`` is not in the ambient; what the material has above it is in full measure,
+
+        T [ det G  w_0(h) + w*(h) - w_0(h) ],
+
+    so that a shell that differs in nothing from the medium is not there at all. Where the material has less than the
+    medium, the difference is tapered with the space, lest no field were better than some.
+    """
+    normal = kinematics.reference_normal
+    stretched = kinematics.deformation_gradient + OuterProduct(director, normal)
+    inverse_transpose, room = Cof(stretched) / Det(stretched), kinematics.hoop * Det(stretched)
+    field = -1 * (inverse_transpose * (jump / thickness * normal + mean_gradient))
+    if given is not None:
+        field = field + given
+    squared = InnerProduct(field, field)
+    free = 0.5 * medium * squared
+    measure = 1.0 if matter.contrast is None else IfPos(CF(matter.contrast) - medium, 1.0, room)
+    energy = room * free + measure * (matter.stored(squared) - free)
+    if matter.remanence is not None:
+        energy = energy + InnerProduct(CF(matter.remanence), kinematics.spatial_gradient.trans * field)
+    return thickness * energy
 
 
 def given_field_energy(

@@ -6,13 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from ngsolve import CF, VOL, Cof, Det, Grad, InnerProduct, Parameter
 
 from embedding.ambient.energy import field_energy
 from embedding.ambient.far import far_field
 from embedding.ambient.motion import AmbientMotion
 from embedding.ambient.reduced import Face, face_energy, given_energy
-from embedding.ambient.transmission import given_field_energy, shell_field_energy
+from embedding.ambient.transmission import given_field_energy, shell_field_energy, tapered_field_energy
 from embedding.coupling.physics import FieldPhysics, Physics, Solid
 from embedding.coupling.unknowns import SIDES, Unknowns
 from embedding.geometry.domain import Domain
@@ -82,10 +83,11 @@ class FieldEnergies:
         return strength + self.given_at(self.domain.reduction.position + motion)
 
     def side_energies(
-        self, values: dict[str, Any], side: str, face: Moved, interior: Moved | None = None
+        self, values: dict[str, Any], side: str, face: Moved, interior: Moved | None = None, *, given: bool = True
     ) -> list[Any]:
         """Field energy of one side: where the shell's motion reaches, and beyond. ``interior`` replaces the present
-        motion of the interior."""
+        motion of the interior. Without ``given`` the square of a varying applied field is left out, which is counted
+        beside the shell alone, and which an interior that moves does not change as a whole."""
         domain = self.domain
         liquid = self.field.liquids.get(side, 1.0)
         interior = interior or self._interior(side)
@@ -95,9 +97,9 @@ class FieldEnergies:
             moved, slope = moved - rest, slope - Grad(rest)
         gradient = self.side_potential_gradient(side, values)
         near = field_energy(domain.reduction, moved, slope, gradient, self.axial)
-        if self.field.varying is not None:
-            given = self.given_at(domain.reduction.position + moved)
-            near = near + given_energy(domain.reduction, moved, slope, given, self.axial)
+        if self.field.varying is not None and given:
+            strength = self.given_at(domain.reduction.position + moved)
+            near = near + given_energy(domain.reduction, moved, slope, strength, self.axial)
         terms = [liquid * near * domain.volume(domain.near(side))]
         far = domain.far(side)
         if far is not None:
@@ -110,11 +112,15 @@ class FieldEnergies:
         w = self.motions[side].w
         return Moved(w, Grad(w))
 
-    def moved_energies(self, values: dict[str, Any], interior: Callable[[Moved], Moved]) -> list[Any]:
-        """Co-energy of the ambient with its interior moved by what ``interior`` makes of its present motion."""
+    def moved_energies(
+        self, values: dict[str, Any], interior: Callable[[Moved], Moved], *, given: bool = True
+    ) -> list[Any]:
+        """Co-energy of the ambient with its interior moved by what ``interior`` makes of its present motion; ``given``
+        as in :meth:`side_energies`."""
         terms = []
         for name, side in SIDES.items():
-            terms += self.side_energies(values, side, self.motion_of(name, values), interior(self._interior(side)))
+            moved = interior(self._interior(side))
+            terms += self.side_energies(values, side, self.motion_of(name, values), moved, given=given)
         return terms
 
     def energies(self, values: dict[str, Any]) -> list[Any]:
@@ -130,19 +136,8 @@ class FieldEnergies:
             terms += [self.through_face(name, values)] if field.varying is not None else []
         terms += self._far_energies(values) + self._solid_energies(values)
         if "jump" in values and (field.matter.contrast is not None or field.matter.remanence is not None):
-            energy = self._inside_shell(values)
-            terms += [energy * integral for integral in self._inside_integrals()]
+            terms += self._inside_shell(values)
         return terms
-
-    def _inside_integrals(self) -> list[Any]:
-        """What integrates the field inside the shell. Between electrodes the jump is one number, and the quadrature is
-        that of the elastic energy: in a slack membrane the two stresses cancel, and must do so at every point."""
-        domain, electrodes = self.domain, self.field.electrodes
-        if electrodes.other is None:
-            return [domain.potential_surface()]
-        between = domain.patch(electrodes.where)
-        bare = [domain.potential_surface(domain.shell - between)] if electrodes.where else []
-        return [domain.surface(between), *bare]
 
     def through_face(self, name: str, values: dict[str, Any]) -> Any:
         """The mixed part of a varying applied field and the potential, on the face ``name``."""
@@ -192,23 +187,61 @@ class FieldEnergies:
         names = [name for name, there in zip(mesh.GetMaterials(), beside.Mask(), strict=True) if there]
         return "inside" if any(name.startswith("inside") for name in names) else "outside"
 
-    def _inside_shell(self, values: dict[str, Any]) -> Any:
+    def _inside_shell(self, values: dict[str, Any]) -> list[Any]:
+        """The field inside the shell. Between electrodes the jump is one number, and the quadrature is that of the
+        elastic energy: in a slack membrane the two stresses cancel, and must do so at every point."""
+        domain, electrodes = self.domain, self.field.electrodes
+        jump, mean_gradient = self._across(values)
+        director = self.opening(values)
+        bare = self.measure * self._coenergy(values, jump, mean_gradient, director)
+        if electrodes.other is None:
+            return [bare * domain.potential_surface()]
+        region = domain.patch(electrodes.where)
+        terms = [self.measure * self._coenergy(values, jump, mean_gradient) * domain.surface(region)]
+        if electrodes.where:
+            terms.append(bare * domain.potential_surface(domain.shell - region))
+        return terms
+
+    def _across(self, values: dict[str, Any]) -> tuple[Any, Any]:
+        """Jump of the potential from bottom to top, and the surface gradient of its mean."""
         sign = 1.0 if self.field.electrodes.lifted == "outside" else -1.0
         half_jump = 0.5 * surface_gradient(values["jump"])
-        mean_gradient = surface_gradient(values["phi"]) + half_jump
-        return self._coenergy(values, sign * _trace(values["jump"]), mean_gradient)
+        return sign * _trace(values["jump"]), surface_gradient(values["phi"]) + half_jump
+
+    def opening(self, values: dict[str, Any]) -> Any:
+        """Distance of the faces of an open shell over its thickness, which tapers to nothing in its rims; None where
+        it does not."""
+        if not self.domain.open or len(self.unknowns.opened) < 2 or "jump" not in values:
+            return None
+        return (_trace(values["o_t"]) - _trace(values["o_b"])) / self.thickness
+
+    def pull_inside(self, values: dict[str, Any]) -> Any | None:
+        """Derivative of the co-energy inside the shell in the place of its top face, per reference area; None where it
+        does not depend on it."""
+        director, electrodes = self.opening(values), self.field.electrodes
+        if director is None or (electrodes.other is not None and not electrodes.where):
+            return None
+        energy = self._coenergy(values, *self._across(values), director) / self.thickness
+        axes = np.eye(self.domain.mesh.dim)
+        pull = CF(tuple(energy.Diff(director, CF(tuple(axis))) for axis in axes))
+        return pull if electrodes.other is None else (1.0 - self.domain.covered(electrodes.where)) * pull
 
     def _film(self, values: dict[str, Any]) -> Any:
         """The field between two electrodes, constant over the surface they cover."""
         electrodes = self.field.electrodes
         covered = self.domain.covered(electrodes.where) if electrodes.where else 1.0
         sign = 1.0 if electrodes.lifted == "outside" else -1.0
-        return self._coenergy(values, sign * covered * values["jump"], CF((0.0,) * self.domain.mesh.dim))
+        no_gradient = CF((0.0,) * self.domain.mesh.dim)
+        return self.measure * self._coenergy(values, sign * covered * values["jump"], no_gradient)
 
-    def _coenergy(self, values: dict[str, Any], jump: Any, mean_gradient: Any) -> Any:
+    def _coenergy(self, values: dict[str, Any], jump: Any, mean_gradient: Any, director: Any | None = None) -> Any:
+        """Co-energy per reference area inside the shell, or between faces opened by ``director`` thicknesses."""
         matter, thickness, kinematics = self.field.matter, self.thickness, self._kinematics(values)
         given = self._given_here(values) if self.field.varying is not None else None
-        return self.measure * shell_field_energy(kinematics, thickness, matter, jump, mean_gradient, given)
+        if director is None:
+            return shell_field_energy(kinematics, thickness, matter, jump, mean_gradient, given)
+        medium = self.field.liquids.get("outside", 1.0)
+        return tapered_field_energy(kinematics, director, thickness, matter, jump, mean_gradient, given, medium)
 
     def _in_given_field(self, values: dict[str, Any]) -> Any:
         kinematics, thickness = self._kinematics(values), self.thickness

@@ -8,8 +8,9 @@
 
 u displaces the mid-surface, y_t and y_b the faces, w (frozen here) the ambient's interior. Stationarity in tau places
 the faces, in y makes -tau the traction on the face, in u gives all its work, in Phi the field. With the interface
-closed, y_t = y_b = u and tau drops out. On an open shell y = u + o, and o is the unknown. The charges Q are constant
-forces on the potentials V of their conductors, which the system adds. Source: theory page, "The coupled Lagrangian".
+closed, y_t = y_b = u and tau drops out. On an open shell y = u + o, and o is the unknown; W* then depends on it, too.
+The charges Q are constant forces on the potentials V of their conductors, which the system adds. Source: theory page,
+"The coupled Lagrangian".
 """
 
 from __future__ import annotations

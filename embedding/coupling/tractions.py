@@ -7,8 +7,8 @@ vector,
 
     p_t = tau_t . m_t / (m_t . m_t),     p_b = - tau_b . m_b / (m_b . m_b),
 
-so that a pressure pushes on its face: along -n at the top, along +n at the bottom. Source: theory page, "Face
-tractions".
+so that a pressure pushes on its face: along -n at the top, along +n at the bottom. Around an open shell tau has a part
+more, from the field inside the shell, which is taken off. Source: theory pages, "Face tractions" and "Open shells".
 """
 
 from __future__ import annotations
@@ -40,10 +40,14 @@ class FaceTractions:
         self._recovery = None if opened else NodalForces(lagrangian, face)
         self._flux: FaceFlux | None = None
         self.total = self.tau
+        if opened and lagrangian.field is not None:
+            # The faces' multipliers of an open shell carry what the field inside it does on them, too.
+            pull = lagrangian.field.pull_inside({name: unknowns.field(name) for name in unknowns.names})
+            self.total = self.tau if pull is None else self.tau + SIGN[face] * pull
         if lagrangian.field is not None and lagrangian.field.field.varying is not None:
             self._flux = FaceFlux(lagrangian, face)
             given = lagrangian.field.given_at(domain.reduction.position + self.displacement)
-            self.total = self.tau - self._flux.flux * given
+            self.total = self.total - self._flux.flux * given
         self.kinematics = Kinematics(
             domain.reduction, domain.normal, self.displacement, lagrangian.physics.axial_stretch
         )

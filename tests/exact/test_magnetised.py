@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from scipy.integrate import quad
 
-from problems.exact import magnetised_shell
+from problems.exact import magnetised_shell, magnetised_strip
 from problems.exact.permeable_cylinder import PermeableCylinder
 from problems.exact.permeable_sphere import PermeableSphere
 from problems.exact.three_regions import ThreeRegions
@@ -90,3 +90,14 @@ def test_normal_magnetisation() -> None:
     thin = magnetised_shell.disc_field_on_axis(rim, 1e-4, 0.4, strength / 1e-4)
     assert thin == pytest.approx(magnetised_shell.cap_field_on_axis(rim, 0.4, strength), rel=1e-6)
     assert magnetised_shell.disc_field_on_axis(1.0, 1e4, 0.0, 2.0) == pytest.approx(2.0, rel=1e-6)  # long magnet: B_r
+
+
+def test_poles_at_the_ends_of_a_strip() -> None:
+    """Ever narrower poles become two that attract each other, at the clamp and at the tip."""
+    k = 0.5
+    known = 3.0 * (1.0 - k / math.tan(k)) / k**2
+    errors = [
+        known - magnetised_strip.own_field(2.0 * math.pi * k**2, *magnetised_strip.fading(width))
+        for width in (0.04, 0.02)
+    ]
+    assert 0.0 < errors[1] < 0.55 * errors[0] < 0.1 * (known - 1.0)

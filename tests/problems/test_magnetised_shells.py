@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from embedding.scene.scales import MU_0
 from problems import magnetised_disc, magnetised_sphere
 from problems.magnetised_sphere import ALONG_NORMAL, FINE, at
 from tests.problems.measures import orders
@@ -25,9 +26,12 @@ def test_remanence_along_the_normal() -> None:
 
 
 def test_disc() -> None:
-    """The field of a ring current, first order in the size of the elements at the rim, which carries it."""
+    """The field of a ring current: to the mesh, whatever the size of the elements at the rim, which carry it."""
     solution, default = magnetised_disc.run()
-    fine = magnetised_disc.run("discretisation.order=4", "discretisation.shell_size=1 mm")[1]
-    assert default.thick < 7e-3
-    assert fine.thick < 2e-3
-    assert abs(solution["force_z"][-1]) < 1e-6, "no force from its own field"
+    assert default.thick < 5e-4
+    current = magnetised_disc.REMANENCE / MU_0 * solution.scene.shell.thickest
+    assert abs(solution["force_z"][-1]) < 1e-3 * MU_0 * current**2, "no force from its own field"
+    for thicknesses in (6.0, 1.0, 0.5):
+        size = 1e3 * thicknesses * solution.scene.shell.thickest
+        assert magnetised_disc.run(f"discretisation.edge_size={{rim='{size} mm'}}")[1].thick < 5e-4
+    assert magnetised_disc.run("discretisation.order=4")[1].thick < 2e-4
