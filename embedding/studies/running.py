@@ -143,11 +143,11 @@ def _record(study: Study, home: StudyFolder, case: Case, future: Future[None]) -
     if isinstance(error, TimeoutError):
         return failure(OVER_TIME, f"not done after {study.limits.seconds:g} s")
     if isinstance(error, ProcessExpired):
-        return failure(KILLED, _death(error.exitcode))
+        return failure(KILLED, death(error.exitcode))
     return failure(RAISED, f"{type(error).__name__}: {error}")
 
 
-def _death(code: int | None) -> str:
+def death(code: int | None) -> str:
     """Why a process ended, from its exit code."""
     if code is None or code >= 0:
         return f"the process ended with exit code {code}"

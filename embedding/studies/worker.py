@@ -32,10 +32,11 @@ def solve_case(path: str) -> None:
     _print_to(folder.log)
     progress = Progress(folder)
     progress.tell()
-    write_whole(folder.record, json.dumps(without_nan(_outcome(folder, progress)), allow_nan=False))
+    write_whole(folder.record, json.dumps(without_nan(outcome(folder, progress)), allow_nan=False))
 
 
-def _outcome(folder: CaseFolder, progress: Progress) -> dict[str, Any]:
+def outcome(folder: CaseFolder, progress: Progress) -> dict[str, Any]:
+    """The record of solving the scene of the folder; errors are records, too."""
     from embedding.api import solve
 
     try:

@@ -16,9 +16,13 @@ import numpy as np
 import pytest
 
 from embedding import open_archive, solve
+from embedding.errors import Problem, SceneError
 from embedding.studies import Study, StudyError, StudyResult, cases_of, load_study, open_study, run_study
+from embedding.studies.files import CaseFolder, StudyFolder, write_case
 from embedding.studies.index import Index, read_index
-from tests.studies.samples import PRESSURE, keys, signals, study
+from embedding.studies.running import death
+from embedding.studies.worker import Progress, outcome
+from tests.studies.samples import PRESSURE, balloon, keys, signals, study
 
 LIMIT = "2 kPa"
 """Above the limit pressure of the balloon, 1.24 kPa: no equilibrium."""
@@ -129,6 +133,37 @@ def test_a_case_is_what_solve_gives(tmp_path: Path) -> None:
     assert begun(tmp_path / "study", keys(stated)) == before
 
 
+def test_an_error_is_a_row(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """What the process of a case makes of errors; the traceback goes to its log."""
+
+    def fails(*_: object, **__: object) -> None:
+        raise error
+
+    monkeypatch.setattr("embedding.api.solve", fails)
+    folder = CaseFolder(tmp_path / "case")
+    write_case(folder, balloon())
+    error: Exception = ZeroDivisionError("by\nzero")
+    reason = f"ZeroDivisionError: by zero (see {folder.log})"
+    assert outcome(folder, Progress(folder)) == {"status": "raised", "reason": reason, "states": {}}
+    assert "Traceback" in capsys.readouterr().err
+    error = SceneError([Problem("shell.shape", "cannot be meshed")])
+    reason = "shell.shape: cannot be meshed"
+    assert outcome(folder, Progress(folder)) == {"status": "refused", "reason": reason, "states": {}}
+
+
+@pytest.mark.parametrize(
+    ("code", "reason"),
+    [
+        (-9, "the process was ended by SIGKILL, as the system does where memory is short"),
+        (-11, "the process was ended by SIGSEGV"),
+        (-250, "the process was ended by signal 250"),
+        (3, "the process ended with exit code 3"),
+    ],
+)
+def test_how_a_process_ended(code: int, reason: str) -> None:
+    assert death(code) == reason
+
+
 SCRIPT = """
 import sys
 from embedding.studies import load_study, run_study
@@ -142,8 +177,6 @@ def test_a_killed_study_loses_nothing(tmp_path: Path) -> None:
     stated = study({PRESSURE: [500, 600, 700]})
     folder, names = tmp_path / "study", keys(stated)
     (tmp_path / "run.py").write_text(SCRIPT)
-    from embedding.studies.files import StudyFolder
-
     StudyFolder(folder).prepare(stated)
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
     script = [sys.executable, str(tmp_path / "run.py"), "."]
@@ -217,8 +250,6 @@ def test_missing_packages_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 def test_the_folder_holds_the_study(tmp_path: Path) -> None:
-    from embedding.studies.files import StudyFolder
-
     stated = study(
         {PRESSURE: {"low": 1, "high": "2 kPa"}},
         name="map",
