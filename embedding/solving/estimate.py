@@ -40,9 +40,11 @@ NEWTON_STEPS, NEAR = 2, 0.01
 def estimate_error(problem: Problem, target: Target, steps: Sequence[StepRecord]) -> ErrorEstimate:
     """Relative error of the answer at the present, converged state, the last of ``steps``.
 
-    The answer is the mean stretch, the mean displacement of a shell that is bent, or the pressure difference where the
-    path controls the volume.
+    The answer is the mean stretch, the mean displacement of a shell that is bent, the pressure difference where the
+    path controls the volume, or the field's energy around a shell that is held.
     """
+    if _held(problem):
+        return _held_estimate(problem, target)
     controlled = target.volume is not None
     bent = _bent(problem, steps[-1].scalars)
     quantity = "pressure_difference" if controlled else "displacement" if bent else "stretch"
@@ -61,6 +63,25 @@ def estimate_error(problem: Problem, target: Target, steps: Sequence[StepRecord]
     if problem.domain.rims and not problem.plan.bending:
         method += "; bending at held edges is NOT included"
     return ErrorEstimate(sum(parts.values()), quantity, method, parts)
+
+
+def _held(problem: Problem) -> bool:
+    """Is there a field, and nothing of the shell can move?"""
+    return problem.system.potential is not None and not problem.system.unknowns.trace.free.any()
+
+
+def _held_estimate(problem: Problem, target: Target) -> ErrorEstimate:
+    """Of the energy, whose error falls as order^-2 where conductors end in rims: then the change from one order to the
+    next is a known part of it. Dielectric and permeable rims are less singular."""
+    order = problem.domain.sizes.potential_order
+    change = _enriched_change(problem, target, "field_energy")
+    if change is None:
+        return ErrorEstimate(0.0, "field_energy", "discretisation is NOT included", {})
+    method = f"the change from order {order} to order {order + 1} of the potential; the thickness is NOT included"
+    if problem.domain.open:
+        change /= 1.0 - (order / (order + 1)) ** 2
+        method = f"at rims, the limit of {method}"
+    return ErrorEstimate(change, "field_energy", method, {"discretisation": change})
 
 
 def _bent(problem: Problem, scalars: dict[str, float]) -> bool:
@@ -152,8 +173,10 @@ class Enriched(Problem):
                 richer.vec.FV().NumPy()[new[: len(old)]] = present.vec.FV().NumPy()[old]
 
     def improve(self, target: Target) -> bool:
-        """Take Newton steps at ``target``; False if they cannot be taken."""
+        """Take Newton steps at ``target``; False if they cannot be taken. Around a shell that is held, with its faces
+        on the mid-surface, the potential is all that changes."""
         system = self.system
+        alone = _held(self) and not self.plan.opened
         system.load(target.mechanical, target.field, target.volume, target.pressure)
         size = math.inf
         try:
@@ -162,6 +185,8 @@ class Enriched(Problem):
                     return False
                 if system.potential is not None:
                     system.potential.solve()
+                if alone:
+                    break
                 residual = system.residual()
                 if not size < NEAR:
                     system.linearise()

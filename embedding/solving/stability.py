@@ -43,7 +43,10 @@ def unstable_modes(system: System) -> int | None:
     """Number of unstable modes at the last linearisation of ``system``.
 
     None where it cannot be counted, a pivot cannot be told from rounding, or the field has too many unknowns for it.
+    A shell that is held cannot be unstable.
     """
+    if not system.unknowns.trace.free.any() and "axial" not in system.unknowns:
+        return 0
     if not countable(system) or (system.physics.field is not None and system.free_count > MOST):
         return None
     matrix, multipliers = system.tangent()

@@ -23,6 +23,7 @@ from embedding import (
 )
 from embedding.scene import EPSILON_0
 from embedding.solving.estimate import Enriched
+from problems import capacitances
 from problems.exact import cylinder, sphere
 from problems.exact.charged_balloon import ChargedBalloon
 from problems.exact.material import neo_hookean
@@ -68,6 +69,19 @@ def test_pressurised_tube(ratio: float, stretch: float) -> None:
 def test_volume_control_states_the_error_of_the_pressure(ratio: float) -> None:
     scene = Scene(shell=shell(Sphere(radius=RADIUS), ratio), path=(Stage(steps=2, volume_ratio=1.05**3),))
     check(solve(scene), MU * sphere.thick_pressure(1.05, ratio), "pressure_difference")
+
+
+@pytest.mark.parametrize("name", ["disc", "hemisphere"])
+@pytest.mark.parametrize("order", [2, 3])
+def test_the_energy_around_a_held_conductor(name: str, order: int) -> None:
+    """The field is singular at its rim: the change to the next order would by itself state a third of the error."""
+    conductor = capacitances.RIMMED[name]
+    solution = capacitances.run(f"shell.shape={conductor.shape}", f"discretisation.order={order}")
+    error = solution.error
+    assert error is not None
+    assert error.quantity == "field_energy"
+    true = abs(solution["charge"][-1] / solution["voltage"][-1] / conductor.known - 1.0)
+    assert 0.5 * true <= error.value <= 2.0 * true
 
 
 def check(solution: object, exact: float, quantity: str) -> None:
