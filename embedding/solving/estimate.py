@@ -41,9 +41,10 @@ def estimate_error(problem: Problem, target: Target, steps: Sequence[StepRecord]
     """Relative error of the answer at the present, converged state, the last of ``steps``.
 
     The answer is the mean stretch, the mean displacement of a shell that is bent, the pressure difference where the
-    path controls the volume, or the field's energy around a shell that is held.
+    path controls the volume, or the field's energy around a shell that is held (without an applied field, whose own
+    energy has no end).
     """
-    if _held(problem):
+    if _held(problem) and "field_energy" in steps[-1].scalars:
         return _held_estimate(problem, target)
     controlled = target.volume is not None
     bent = _bent(problem, steps[-1].scalars)
