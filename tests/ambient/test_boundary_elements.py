@@ -10,6 +10,7 @@ from problems.exact.capacitance import disc, sphere, spheroid
 boundary_elements = pytest.importorskip("benchmarks.boundary_elements")
 
 
+@pytest.mark.slow
 def test_sphere() -> None:
     """The error falls with the order."""
     surface = Sphere(Pnt(0, 0, 0), 1.0).faces[0]
@@ -18,6 +19,7 @@ def test_sphere() -> None:
     assert errors[2] < 5e-6
 
 
+@pytest.mark.slow
 def test_spheroid() -> None:
     """Half axes 1, 1, 1/2."""
     surface = Ellipsoid(Axes(Pnt(0, 0, 0), Dir(0, 0, 1), Dir(1, 0, 0)), 1.0, 1.0, 0.5).faces[0]

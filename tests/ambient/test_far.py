@@ -85,7 +85,7 @@ def test_a_uniform_field_passes(name: Name, mapped: bool) -> None:
     assert abs(found.charge) < 1e-12
 
 
-@pytest.mark.parametrize("name", REDUCTIONS)
+@pytest.mark.parametrize("name", [pytest.param("3d", marks=pytest.mark.slow), *REDUCTIONS[1:]])
 def test_the_error_falls_with_the_order(name: Name) -> None:
     """Charge and dipole moment of the conductor off the centre: nothing but discretisation is left."""
     second, third, fourth = (errors(name, order=order) for order in (2, 3, 4))

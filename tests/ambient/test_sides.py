@@ -263,7 +263,10 @@ def refined(domain: Domain) -> Domain:
     return Domain(mesh, domain.reduction, domain.shape, domain.sizes, domain.face_numbers, *rims)
 
 
-@pytest.mark.parametrize(("shape", "reduction", "planes", "order"), RATES)
+@pytest.mark.parametrize(
+    ("shape", "reduction", "planes", "order"),
+    [pytest.param(*rate, marks=pytest.mark.slow) if rate[1] == "3d" and rate[3] == 3 else rate for rate in RATES],
+)
 def test_curved_shells_have_the_best_order(shape: Shape, reduction: Name, planes: tuple[str, ...], order: int) -> None:
     """The gradient of order k, the potential of order k + 1."""
     domain = domain_of(shape, reduction, planes, 0.4 if reduction == "3d" else 0.2, order)

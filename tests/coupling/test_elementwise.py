@@ -112,7 +112,12 @@ def _exact(order: int, locking: str) -> bool:
     return locking != "cured" or order < 3
 
 
-CASES = [(body, order) for body in BODIES for order in ((1, 2) if body == "torus" else (1, 2, 3, 4))]
+HEAVY = (("torus", 2), ("capped", 3), ("capped", 4))
+CASES = [
+    pytest.param(body, order, marks=pytest.mark.slow) if (body, order) in HEAVY else (body, order)
+    for body in BODIES
+    for order in ((1, 2) if body == "torus" else (1, 2, 3, 4))
+]
 
 
 @pytest.mark.parametrize("locking", ["cured", "as it is"])

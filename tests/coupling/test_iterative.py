@@ -67,7 +67,13 @@ def test_iterations_do_not_depend_on_contrast() -> None:
 
 @pytest.mark.parametrize(
     ("reduction", "faces"),
-    [("3d", "conductor"), ("3d", "bare"), ("axisymmetric", "film"), ("axisymmetric", "bare"), ("plane-strain", "top")],
+    [
+        ("3d", "conductor"),
+        pytest.param("3d", "bare", marks=pytest.mark.slow),
+        ("axisymmetric", "film"),
+        ("axisymmetric", "bare"),
+        ("plane-strain", "top"),
+    ],
 )
 def test_potential_and_update_are_those_of_the_direct_solvers(reduction: str, faces: str) -> None:
     direct, iterative = coupled(reduction, faces), iterating(reduction, faces)

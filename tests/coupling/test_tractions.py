@@ -100,7 +100,7 @@ def fields_on_the_shell(state: State, *names: str) -> tuple[Array, dict[str, Arr
     return place / np.linalg.norm(place, axis=1)[:, None], vectors
 
 
-@pytest.mark.parametrize("name", BODIES)
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow) if n == "octant" else n for n in BODIES])
 def test_all_four_tractions_on_a_permeable_shell(name: str) -> None:
     """Pressures and tangential tractions on both faces, mu_r = 10, T/R = 0.1, against the exact three regions."""
     shape, model, field, regions = BODIES[name]

@@ -61,8 +61,19 @@ EVERY = [
     for reduction in case.shape.reductions
     for planes in _planes(case, reduction)
 ]
-CLOSED = [entry for entry in EVERY if CASES[entry[0]].volume is not None]
-OPEN = [entry for entry in EVERY if CASES[entry[0]].volume is None]
+
+
+def _paced(entries: list[tuple[str, str, tuple[str, ...]]]) -> list[object]:
+    """Bodies that are meshed whole or between all their mirror planes come first; the rest is slow."""
+
+    def first(name: str, planes: tuple[str, ...]) -> bool:
+        return not planes or planes == tuple(CASES[name].shape.mirrors)
+
+    return [entry if first(entry[0], entry[2]) else pytest.param(*entry, marks=pytest.mark.slow) for entry in entries]
+
+
+CLOSED = _paced([entry for entry in EVERY if CASES[entry[0]].volume is not None])
+OPEN = _paced([entry for entry in EVERY if CASES[entry[0]].volume is None])
 
 
 @cache
@@ -85,7 +96,7 @@ def rim_length(domain: Domain) -> float:
     return float((2 * PI * at).sum() if domain.reduction.name == "axisymmetric" else len(at))
 
 
-@pytest.mark.parametrize(("name", "reduction", "planes"), EVERY)
+@pytest.mark.parametrize(("name", "reduction", "planes"), _paced(EVERY))
 def test_areas_volumes_and_names(name: str, reduction: str, planes: tuple[str, ...]) -> None:
     """Measures of the whole body, to the error of coarse elements of order 2; names of boundaries, and of edges, which
     supports ask for; no folded element."""
@@ -133,7 +144,7 @@ def test_rims(name: str, reduction: str, planes: tuple[str, ...]) -> None:
     assert set(domain.rims) | swapped == case.true_edges
 
 
-@pytest.mark.parametrize(("name", "reduction", "planes"), EVERY)
+@pytest.mark.parametrize(("name", "reduction", "planes"), _paced(EVERY))
 def test_sides(name: str, reduction: str, planes: tuple[str, ...]) -> None:
     """Every element of the shell has one neighbour on each side, the one its exact normal points to on top.
 

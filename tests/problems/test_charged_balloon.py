@@ -59,6 +59,7 @@ def test_the_scene_file() -> None:
     assert solution["stretch_max"][-1] - solution["stretch_min"][-1] < 2e-4, "a sphere stays a sphere"
 
 
+@pytest.mark.slow
 def test_3d_is_axisymmetric() -> None:
     flat, solid = charged(0.1, "opened", *FINE), charged_in_3d()
     assert solid["stretch"] == pytest.approx(flat["stretch"], abs=2e-5)

@@ -59,7 +59,7 @@ def test_pressure_and_limit_points(name: str) -> None:
         assert point == pytest.approx(known_point, rel=3e-8)
 
 
-@pytest.mark.parametrize("name", ["yeoh", "gent", "ogden"])
+@pytest.mark.parametrize("name", ["gent", *(pytest.param(name, marks=pytest.mark.slow) for name in ("yeoh", "ogden"))])
 def test_in_three_dimensions(name: str) -> None:
     """All in-plane stretches are equal here, where the root in Ogden's law has no derivative."""
     octant = inflated(name, SHORT, "model.reduction=3d", "discretisation.shell_size=6 mm")

@@ -18,6 +18,7 @@ def stretch(far_field: str, radius: int) -> float:
     return solve(load_scene(permeable_sphere.SCENE, (path, *space))).steps[-1].scalars["stretch_max"]
 
 
+@pytest.mark.slow
 def test_the_map_does_not_feel_the_radius_and_robin_does() -> None:
     """The long balloon has a part of degree 3, which Robin's condition misses; it falls with the seventh power."""
     near, far = stretch("infinite", 2), stretch("infinite", 4)

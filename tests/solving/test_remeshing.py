@@ -77,6 +77,7 @@ def test_the_answer_does_not_depend_on_it(changes: tuple[str, ...], monkeypatch:
     assert often["charge"][-1] == pytest.approx(plain["charge"][-1], rel=2e-4)
 
 
+@pytest.mark.slow
 def test_through_a_limit_point(monkeypatch: pytest.MonkeyPatch) -> None:
     """Past the largest voltage the walk keeps its direction, and finds the bifurcations there."""
     end = "path=[{until={where=['20 mm', '0 mm', '0 mm'], axis='x', value='18 mm'}}]"

@@ -162,6 +162,7 @@ def test_both_sides_of_a_limit_point(parts: dict[str, Any], interface: str) -> N
     assert (negatives(below), negatives(above)) == (0, 1)
 
 
+@pytest.mark.slow
 def test_both_sides_in_3d() -> None:
     """The meshed octant allows the sphere's own mode."""
     below, above = stopped(GROUNDED, (1.3, 1.68), "closed", "3d")
