@@ -17,15 +17,17 @@ from embedding.studies.record import DONE
 class StudyDisplay:
     """Shows how many cases have ended, and how far the running ones are. Use as a context manager around the study."""
 
-    def __init__(self, name: str, total: int, reused: int, quiet: bool = False) -> None:
-        self.console = Console(stderr=True, quiet=quiet)
+    def __init__(
+        self, name: str, total: int, reused: int, quiet: bool = False, console: Console | None = None
+    ) -> None:
+        self.console = Console(stderr=True, quiet=quiet) if console is None else console
         columns = (
             TextColumn("{task.description}", markup=False),
             BarColumn(),
             MofNCompleteColumn(),
             TimeElapsedColumn(),
         )
-        live = self.console.is_terminal and not quiet
+        live = self.console.is_terminal and not self.console.quiet
         self.progress = Progress(*columns, console=self.console, transient=True, disable=not live)
         self.name, self.total, self.ended, self.reused = name, total, reused, reused
         self.whole = self.progress.add_task(name, total=total, completed=reused)

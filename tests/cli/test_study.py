@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -58,6 +63,23 @@ def test_a_study_and_its_table(study_file: Path, call: Call) -> None:
     assert report["units"]["reached"] == "Pa"
     assert report["rows"][0]["quantities"]["stretch"] == pytest.approx(1.0522, abs=1e-4)
     assert report["rows"][1]["quantities"]["stretch"] is None
+
+
+def test_an_interrupt_ends_the_cases_and_is_130(study_file: Path) -> None:
+    folder = study_file.parent
+    study_file.write_text(STUDY.replace("[parameters]", "[parameters]\npath.0.steps = [9000]"))
+    command = [sys.executable, "-m", "embedding.cli", "study", study_file.name, "--workers", "1", "--no-progress"]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    with subprocess.Popen(command, cwd=folder, env=environment, stderr=subprocess.PIPE, text=True) as study:
+        while not (told := list((folder / "two").glob("cases/*/progress.json"))):
+            assert study.poll() is None
+            time.sleep(0.01)
+        case = json.loads(told[0].read_text())["process"]
+        study.send_signal(signal.SIGINT)
+        _, message = study.communicate()
+    assert (study.returncode, message) == (130, "error: interrupted\n")
+    status = Path(f"/proc/{case}/status")
+    assert not status.exists() or "State:\tZ" in status.read_text()
 
 
 @pytest.mark.parametrize(
