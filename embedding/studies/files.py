@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from embedding.errors import SceneError
+from embedding.errors import Problem, SceneError
 from embedding.scene import Scene, load_scene
 from embedding.scene.toml_io import read_table, read_text, write_table
 from embedding.studies.errors import StudyError
@@ -30,7 +30,13 @@ def load_study(path: str | os.PathLike[str]) -> Study:
     try:
         return Study(**table)
     except SceneError as error:
-        raise SceneError(error.problems, source) from None
+        raise SceneError([_in_study(problem, table) for problem in error.problems], source) from None
+
+
+def _in_study(problem: Problem, table: dict[str, Any]) -> Problem:
+    """A problem between the fields of the base scene has its path from there on; here it gets that in the study."""
+    first = problem.path.partition(".")[0]
+    return problem if first in Study.model_fields or first in table else problem._replace(path=f"scene.{problem.path}")
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Tag, model_validator
@@ -20,6 +21,17 @@ Seconds = Annotated[float, BeforeValidator(Number("time", "s", "10 min", above=0
 
 RESERVED = ("case", "status", "reason", "seconds", "estimated_error")
 """Columns that every table has."""
+
+
+class BaseScene:
+    """Validator of the base scene; of a study file it has become a scene or its tables before."""
+
+    allowed = 'must be the name of a scene file, such as "balloon.toml", or the tables of a scene'
+
+    def __call__(self, value: Any) -> Any:
+        if not isinstance(value, (Scene, Mapping)):
+            raise refusal(self.allowed)
+        return value
 
 
 class Grid(Part):
@@ -73,7 +85,7 @@ class Study(Part):
     """
 
     name: Name = "study"
-    scene: Scene
+    scene: Annotated[Scene, BeforeValidator(BaseScene())]
     parameters: Annotated[dict[str, Any], BeforeValidator(stated_parameters), AfterValidator(Fixed)]
     design: Design = Grid()
     quantities: Annotated[dict[str, str], BeforeValidator(stated_quantities), AfterValidator(Fixed)]

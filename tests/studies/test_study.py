@@ -6,14 +6,17 @@ from __future__ import annotations
 
 import math
 import textwrap
+import tomllib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import tomli_w
 
 from embedding import Scene, SceneError
-from embedding.studies import Grid, LatinHypercube, Limits, Quantity, Rows, cases_of, load_study
+from embedding.studies import Grid, LatinHypercube, Limits, Quantity, Rows, Study, cases_of, load_study
 from tests.studies.samples import PRESSURE, SCENE, balloon, keys, study
 
 THICKNESS = "shell.thickness"
@@ -168,10 +171,6 @@ WRONG = {
 @pytest.mark.parametrize("line", WRONG)
 def test_a_wrong_file_is_one_message(line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    import tomllib
-
-    import tomli_w
-
     path = written(tmp_path, FILE)
     table = tomllib.loads(FILE)
     table["parameters"] = {THICKNESS: ["0.2 mm", "0.4 mm"], PRESSURE: ["1 kPa", 500, "2e3 Pa"]}
@@ -182,6 +181,31 @@ def test_a_wrong_file_is_one_message(line: str, tmp_path: Path, monkeypatch: pyt
     with pytest.raises(SceneError) as caught:
         load_study(path.name)
     assert str(caught.value) == WRONG[line]
+
+
+MISSING = 'scene: missing: must be the name of a scene file, such as "balloon.toml", or the tables of a scene'
+THICK = "scene.shell.thickness: 0.05 m is not allowed: half of it must be less than shell.shape.radius = 0.02 m"
+WRONG_SCENES: dict[str, Callable[[dict[str, Any]], object]] = {
+    MISSING: lambda table: table.pop("scene"),
+    MISSING.replace("missing", "3 is not allowed"): lambda table: table.update(scene=3),
+    THICK: lambda table: table["scene"]["shell"].update(thickness="50 mm"),
+    "scene.shell.thickness: 1 s is not allowed": lambda table: table["scene"]["shell"].update(thickness="1 s"),
+}
+
+
+def test_a_scene_within_a_study(tmp_path: Path) -> None:
+    def load(change: Callable[[dict[str, Any]], object] | None = None) -> Study:
+        table = tomllib.loads(FILE) | {"scene": tomllib.loads(SCENE)}
+        if change is not None:
+            change(table)
+        (tmp_path / "map.toml").write_text(tomli_w.dumps(table))
+        return load_study(tmp_path / "map.toml")
+
+    assert load().scene == balloon()
+    for message, change in WRONG_SCENES.items():
+        with pytest.raises(SceneError) as caught:
+            load(change)
+        assert str(caught.value).startswith(f"{tmp_path / 'map.toml'}: {message}")
 
 
 WRONG_VALUES = {
