@@ -58,7 +58,8 @@ NEWTON_COLUMNS = {
 SLOTS = ("even", "odd")
 KINDS = ("PointData", "CellData", "FieldData")
 PLACES = ("Part", "Point", "Cell", "ConnectivityId")
-"""What VTKHDF asks of every step: where its mesh begins, counted in these."""
+TOPOLOGY = PLACES[2:]
+"""What VTKHDF asks of every step: where its mesh begins, counted in these; the last ones in a column."""
 
 
 def growable(
@@ -110,7 +111,7 @@ def first_row(shared: Any, group: Any, block: str, step: int) -> int:
     if step == 0 or not len(group["PointData"]):
         return 0
     chunk = int(next(iter(group["PointData"].values())).chunks[0])
-    part = int(shared[table("Part", block)][step - 1])
+    part = mesh_of(group, step - 1)["Part"]
     rows = -(-int(group["NumberOfPoints"][part]) // chunk) * chunk
     return int(shared[table("Row", block)][step - 1]) + rows
 
@@ -177,6 +178,24 @@ def add_mesh(group: Any, block: LagrangeBlock) -> dict[str, int]:
     return begin
 
 
+def part_tables(file: Any, block: str, steps: int) -> None:
+    """Give ``block`` tables of its own of where the mesh of a step begins, with the ``steps`` so far on its first mesh;
+    until then it shares tables of zeros with all others."""
+    shared, linked = file["embedding/vtk"], file["VTKHDF"][block]["Steps"]
+    for place in PLACES:
+        if table(place, block) not in shared:
+            columns: tuple[int, ...] = (1,) if place in TOPOLOGY else ()
+            own = growable(shared, table(place, block), "i8", "1", shape=columns)
+            put(own, 0, np.zeros((steps, *columns), "i8"))
+            del linked[f"{place}Offsets"]
+            linked[f"{place}Offsets"] = own
+
+
+def mesh_of(group: Any, step: int) -> dict[str, int]:
+    """Where the mesh of a ``step`` begins in the ``group`` of a block, by ``PLACES``."""
+    return {place: int(group["Steps"][f"{place}Offsets"][step].item()) for place in PLACES}
+
+
 def _mesh(block: LagrangeBlock) -> dict[str, tuple[npt.NDArray[Any], str]]:
     """The arrays of one mesh, with their units."""
     cells, nodes = block.cells.shape
@@ -199,6 +218,8 @@ def create_fields(file: Any, fields: Mapping[str, Mapping[str, tuple[str, tuple[
     shared = file["embedding"].create_group("vtk")
     growable(shared, "values", "f8", "1")
     growable(shared, "row", "i8", "1")
+    growable(shared, "zero", "i8", "1")
+    growable(shared, "zeros", "i8", "1", shape=(1,))
     growable(shared, "one", "i8", "1")
     for block, declared in fields.items():
         group = file["VTKHDF"][block]
@@ -206,8 +227,7 @@ def create_fields(file: Any, fields: Mapping[str, Mapping[str, tuple[str, tuple[
         steps.attrs.create("NSteps", np.int64(0))
         steps["Values"] = shared["values"]
         for place in PLACES:
-            columns: tuple[int, ...] = (1,) if place in ("Cell", "ConnectivityId") else ()
-            steps[f"{place}Offsets"] = growable(shared, table(place, block), "i8", "1", shape=columns)
+            steps[f"{place}Offsets"] = shared["zeros" if place in TOPOLOGY else "zero"]
         steps["NumberOfParts"] = shared["one"]
         chunk = chunk_rows(int(group["NumberOfPoints"][0]))
         data = {kind: group.create_group(kind, track_order=True) for kind in KINDS}

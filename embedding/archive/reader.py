@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from embedding.archive.file import reading
-from embedding.archive.layout import NEWTON_COLUMNS, PLACES, SLOTS, table
+from embedding.archive.layout import NEWTON_COLUMNS, PLACES, SLOTS, mesh_of, table
 from embedding.archive.records import (
     UNFINISHED,
     ArchivedCost,
@@ -244,9 +244,7 @@ class ArchivedBlock:
         self.archive, self.name, self.step = archive, name, -1 if step is None else step
         with reading(archive.path) as file:
             group = file["VTKHDF"][name]
-            first = dict.fromkeys(PLACES, 0)
-            if step is not None:
-                first = {place: int(file["embedding/vtk"][table(place, name)][step].item()) for place in PLACES}
+            first = dict.fromkeys(PLACES, 0) if step is None else mesh_of(group, step)
             self._part = first["Part"]
             counts = {place: int(group[f"NumberOf{place}s"][self._part]) for place in PLACES[1:]}
             rows = {place: slice(first[place], first[place] + counts[place]) for place in PLACES[1:]}
@@ -275,11 +273,10 @@ class ArchivedBlock:
             raise ArchiveError(f"{where} has no field {name!r}; there are {there}")
         number = self.archive.index(self.step if step is None else step)
         with reading(self.archive.path) as file:
-            shared = file["embedding/vtk"]
-            if int(shared[table("Part", self.name)][number]) != self._part:
+            group = file["VTKHDF"][self.name]
+            if mesh_of(group, number)["Part"] != self._part:
                 raise ArchiveError(
                     f"{self.archive.path}: step {number} has another mesh: ask for block({self.name!r}, {number})"
                 )
-            dataset = file["VTKHDF"][self.name]["PointData"][name]
-            begin = int(shared[table("Row", self.name)][number])
+            begin, dataset = int(file["embedding/vtk"][table("Row", self.name)][number]), group["PointData"][name]
             return cast(npt.NDArray[np.float32], dataset[begin : begin + len(self.points)])

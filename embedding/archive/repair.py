@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from embedding.archive.file import reading
-from embedding.archive.layout import LIBVER, table
+from embedding.archive.layout import LIBVER, mesh_of, table
 from embedding.errors import ArchiveError
 
 
@@ -53,9 +53,9 @@ class _Copy:
         """Where the rows that count of the fields of ``block`` end."""
         if not self.committed:
             return 0
-        shared, last = file["embedding/vtk"], self.committed - 1
-        part = int(shared[table("Part", block)][last])
-        return int(shared[table("Row", block)][last]) + int(file["VTKHDF"][block]["NumberOfPoints"][part])
+        group, last = file["VTKHDF"][block], self.committed - 1
+        points = int(group["NumberOfPoints"][mesh_of(group, last)["Part"]])
+        return int(file["embedding/vtk"][table("Row", block)][last]) + points
 
     def group(self, old: Any, new: Any) -> None:
         """Fill the group ``new`` with the attributes and members of ``old``."""

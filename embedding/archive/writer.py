@@ -64,7 +64,7 @@ class ArchiveWriter:
         self.path = self.target
         self.blocks, self.documents, self.per_length = dict(blocks), dict(documents), per_length
         self.committed = 0
-        self._begin = {block: dict.fromkeys(layout.PLACES, 0) for block in self.blocks}
+        self._begin: dict[str, dict[str, int]] = {}
         self._remeshed = False
         self._run = uuid.uuid4().hex
         self._partial = self.target.with_name(f"{self.target.name}.partial")
@@ -108,6 +108,7 @@ class ArchiveWriter:
         self._copy()
         with self._open(self._partial, "r+") as file:
             for name, block in self.blocks.items():
+                layout.part_tables(file, name, self.committed)
                 self._begin[name] = layout.add_mesh(file["VTKHDF"][name], block)
             del file["embedding/checkpoint"]
             layout.create_checkpoint(file["embedding"], vectors)
@@ -154,7 +155,7 @@ class ArchiveWriter:
         for name, value in _scalars(record).items():
             layout.put(self._known(file, "embedding/scalars", name), step, [[value]])
         self._rows(own, record)
-        tables = {"values": record.number, "row": step, "one": 1}
+        tables = {"values": record.number, "row": step, "zero": 0, "zeros": 0, "one": 1}
         tables |= {layout.table("Row", block): row for block, row in first.items()}
         for block, begin in self._begin.items():
             tables |= {layout.table(place, block): value for place, value in begin.items()}
