@@ -92,7 +92,7 @@ class _Store:
 
     def __init__(self, rest: BilinearForm, shell: ShellElements, condensed: Any, state: Any) -> None:
         rest.AssembleLinearization(state)
-        rows, columns, _ = (np.asarray(part, np.int64) for part in rest.mat.COO())
+        rows, columns = (np.asarray(part, np.int64) for part in rest.mat.COO()[:2])
         self._used = ~(condensed[rows] | condensed[columns])
         rows, columns = rows[self._used], columns[self._used]
         pairs = [np.broadcast_arrays(kept[:, :, None], kept[:, None, :]) for kept in shell.kept]

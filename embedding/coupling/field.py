@@ -210,8 +210,9 @@ class FieldEnergies:
 
     def opening(self, values: dict[str, Any]) -> Any:
         """Distance of the faces of an open shell over its thickness, which tapers to nothing in its rims; None where
-        it does not."""
-        if not self.domain.open or len(self.unknowns.opened) < 2 or "jump" not in values:
+        it does not. In space, too: there it may vanish within an element that has its corners on rims, and the field
+        inside the shell is that of its full thickness."""
+        if self.domain.mesh.dim == 3 or not self.domain.open or len(self.unknowns.opened) < 2 or "jump" not in values:
             return None
         return (_trace(values["o_t"]) - _trace(values["o_b"])) / self.thickness
 

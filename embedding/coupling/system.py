@@ -43,6 +43,9 @@ class System:
         self.unknowns = Unknowns(domain, physics)
         self.motions = self._ambient_motions(linear)
         self.lagrangian = Lagrangian(domain, physics, self.unknowns, self.motions, self.factors)
+        if "axial" in self.unknowns:
+            self.unknowns.field("axial").vec[0] = 1.0
+        self.place_faces()  # before any form is evaluated: between faces that coincide there is no field
         self.form = form_of(self.lagrangian)
         self.potential = PotentialSolve(self.lagrangian, linear) if self.unknowns.potential is not None else None
         self.tractions = {face: FaceTractions(self.lagrangian, face) for face in self.unknowns.faces}
@@ -51,11 +54,8 @@ class System:
             motion = self.motions[SIDES["t"]]
             self.following = Following(domain, self.lagrangian.field, self.unknowns, motion)
         self.resultants = self._resultants()
-        if "axial" in self.unknowns:
-            self.unknowns.field("axial").vec[0] = 1.0
         self._point_forces = point_load_vector(domain, self.unknowns.trace, physics.loads)
         self._displaced = displaced(domain, self.unknowns.trace, physics.prescribed)
-        self.place_faces()
         self._held: tuple[str, ...] = ()
         self._solver = self._linear_solver(())
         self._measured = self._linearised = self._displacement
