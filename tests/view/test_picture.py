@@ -131,7 +131,8 @@ def test_a_disc_is_revolved_whole(tmp_path: Path) -> None:
     problem = Problem("axisymmetric", size=0.8, order=2)
     wire = Wire([Segment(Pnt(0, 0, 0), Pnt(RADIUS, 0, 0))])
     problem.mesh = Mesh(OCCGeometry(wire, dim=2).GenerateMesh(maxh=0.3))
-    problem.blocks = {"shell": SimpleNamespace(name="shell", region=problem.mesh.Boundaries(".*"), codim=1, within=nullcontext)}
+    shell = problem.mesh.Boundaries(".*")
+    problem.blocks = {"shell": SimpleNamespace(name="shell", region=shell, codim=1, within=nullcontext)}
     toml = problem.scene.to_toml().replace('"sphere"', '"disc"')
     problem.scene = SimpleNamespace(to_toml=lambda: toml, name="disc", discretisation=problem.scene.discretisation)
     path = tmp_path / "run.vtkhdf"
