@@ -68,8 +68,8 @@ class Bent(Run):
     def __init__(self, shape: Table, thickness: Any, material: Table = RUBBER, **parts: Any) -> None:
         super().__init__(scene_of(shape, thickness, material, **parts), ())
         self.outcome = Result.CONVERGED
-        for stage, goals in zip(self.scene.path, self._ends, strict=True):
-            self.outcome = self._stage(stage, goals)
+        for number in range(len(self.scene.path)):
+            self.outcome = self._stage(number)
             if not self.outcome.ok:
                 break
 

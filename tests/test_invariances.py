@@ -143,7 +143,7 @@ def test_a_disc_does_not_know_which_face_is_the_top(reduction: str) -> None:
 # -- units
 
 
-@pytest.mark.parametrize("reduction", ["axisymmetric", "3d"])
+@pytest.mark.parametrize("reduction", ["axisymmetric", pytest.param("3d", marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("length", "stress"), [(1e-6, 1.0), (1e6, 1e6), (1e-3, 1e-6), (1.0, 1e6)])
 def test_units_do_not_matter(length: float, stress: float, reduction: str) -> None:
     """Lengths and moduli times powers of ten up to a million; everything else scaled along."""

@@ -24,6 +24,7 @@ Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 Node = tuple[int, ...]
 
+ROUNDING = 1e-12
 CELL_TYPES = {1: 68, 2: 69, 3: 71}  # VTK_LAGRANGE_CURVE, _TRIANGLE, _TETRAHEDRON by dimension of the cell
 EDGES = {1: ((0, 1),), 2: ((0, 1), (1, 2), (2, 0)), 3: ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))}
 TETRAHEDRON_FACES = ((0, 1, 3), (2, 3, 1), (0, 3, 2), (0, 2, 1))
@@ -124,7 +125,10 @@ class LagrangeBlock:
         self._sharing = np.bincount(self.cells.ravel()).astype(float)
         position = CF((x, y, z)) if mesh.dim == 3 else CF((x, y))
         with within():
-            self.points = embed(np.asarray(position(self._places[self._first])))
+            places = np.asarray(position(self._places[self._first]))
+        # A plane must be one for viewers, too: VTK's cleaning of points does not end on one with rounding across it.
+        rounding = ROUNDING * np.abs(places).max(initial=0.0)
+        self.points = embed(np.where(np.abs(places) < rounding, 0.0, places))
 
     @property
     def point_count(self) -> int:

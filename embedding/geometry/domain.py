@@ -43,6 +43,7 @@ from embedding.errors import Problem, SceneError
 from embedding.geometry import curvature, meshing
 from embedding.geometry.cut import CloseSheetsError, JunctionError
 from embedding.geometry.facets import Facets, Integers, Mask, OneSidedError
+from embedding.geometry.matching import Matching
 from embedding.geometry.outline import NoMeshError
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.sides import UnclearSidesError, signs
@@ -62,12 +63,13 @@ FLATTEST = 1e-6
 @dataclass(frozen=True)
 class Base:
     """What a mesh made around a deformed shell starts from: its deformation to the ``reference`` shell, that to the
-    curved ``ambient`` around the shell where it was made, and the ``displacement`` of the shell there; see
-    :mod:`embedding.geometry.remeshing`."""
+    curved ``ambient`` around the shell where it was made, and the ``displacement`` of the shell there; and how the
+    shell's elements are those of the ``first`` mesh. See :mod:`embedding.geometry.remeshing`."""
 
     reference: GridFunction
     ambient: GridFunction
     displacement: GridFunction
+    first: Matching
 
 
 @dataclass(frozen=True)

@@ -46,6 +46,11 @@ class Matching:
         corner = np.argmax(old.corners[row][:, None, :] == vertices[:, :, None], axis=2)
         return cls(old, new, row, corner)
 
+    def after(self, other: Matching) -> Matching:
+        """How the new elements are those of the old shell of ``other``, whose new shell is the old one here."""
+        corner = np.take_along_axis(other.corner[self.row], self.corner, axis=1)
+        return Matching(other.old, self.new, other.row[self.row], corner)
+
     def turns(self) -> Integers:
         """-1 where the corners of an element run the other way than in the old mesh, else 1."""
         return np.array([round(np.linalg.det(np.eye(len(order))[order])) for order in self.corner], np.int64)

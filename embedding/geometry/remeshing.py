@@ -10,12 +10,14 @@ or turning shell has worn out are good again, and nothing of the shell's state c
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from ngsolve import BBND, GridFunction, VectorH1
+from ngsolve import BBND, CF, H1, GridFunction, VectorH1, x, y, z
 from scipy.spatial import cKDTree
 
 from embedding.errors import SceneError
@@ -106,17 +108,54 @@ def _polyhedron(domain: Domain, moved: Floats) -> Polyhedron:
 
 def _base(domain: Domain, displacement: Any, matching: Matching) -> Base:
     """The two deformations of the new mesh, and the displacement it was made at."""
-    mesh, order = matching.new.mesh, domain.sizes.order
-    space = VectorH1(mesh, order=order)
-    scalar = space.components[0]
-    came_from = put(scalar, matching.new, matching.sampled(domain.reduction.position, order))
-    now = put(scalar, matching.new, matching.sampled(domain.reduction.position + displacement, order))
-    straight = np.zeros_like(now)
-    corners = np.unique(matching.new.corners)
+    order = domain.sizes.order
+    first = matching if domain.base is None else matching.after(domain.base.first)
+    present = put(_scalar(first, order), matching.new, matching.sampled(displacement, order))
+    return _deformations(first, order, present)
+
+
+def _deformations(first: Matching, order: int, displacement: Floats) -> Base:
+    """The base of the new mesh of ``first``, of an ``order``, with the unknowns (d, n) of a displacement."""
+    mesh = first.new.mesh
+    position = CF((x, y, z)) if mesh.dim == 3 else CF((x, y))
+    came_from = put(_scalar(first, order), first.new, first.sampled(position, order))
+    straight = np.zeros_like(came_from)
+    corners = np.unique(first.new.corners)
     straight[:, corners] = np.array([mesh.vertices[int(v)].point for v in corners]).T
     fields = []
-    for unknowns in (came_from - straight, now - straight, now - came_from):
-        field = GridFunction(space)
+    for unknowns in (came_from - straight, came_from + displacement - straight, displacement):
+        field = GridFunction(VectorH1(mesh, order=order))
         field.vec.FV().NumPy()[:] = unknowns.ravel()
         fields.append(field)
-    return Base(*fields)
+    reference, ambient, moved = fields
+    return Base(reference, ambient, moved, first)
+
+
+def _scalar(matching: Matching, order: int) -> Any:
+    return H1(matching.new.mesh, order=order)
+
+
+@contextmanager
+def one_order_more(domain: Domain) -> Iterator[Domain]:
+    """``domain`` with its geometry, also that of the shell, and its fields of one order more, for a while."""
+    order, base, meshes = domain.sizes.order, domain.base, [domain.mesh]
+    if base is not None:
+        meshes.append(base.first.old.mesh)
+    try:
+        for mesh in meshes:
+            mesh.Curve(order + 1)
+        if base is not None:
+            base = _raised(base, order + 1)
+            domain.mesh.SetDeformation(base.reference)
+        yield replace(domain, sizes=replace(domain.sizes, order=order + 1), base=base)
+    finally:
+        for mesh in meshes:
+            mesh.Curve(order)
+        if domain.base is not None:
+            domain.mesh.SetDeformation(domain.base.reference)
+
+
+def _raised(base: Base, order: int) -> Base:
+    """``base`` at a higher order, with the same displacement."""
+    samples = on_lattice(base.first.new, base.displacement, order)
+    return _deformations(base.first, order, put(_scalar(base.first, order), base.first.new, samples))

@@ -104,9 +104,14 @@ class ArcStage:
                 found.extend(settled(self.corrector, Metric(self.path, walk.metric.weight), here, tangent, self._watch))
             return bool(found)
 
-        if not self.session.remesh(settle):
-            self.path, self.corrector = kept
-            self.path.restore(here.saved)
+        moved = False
+        try:
+            moved = self.session.remesh(settle)
+        finally:  # also where somebody interrupts
+            if not moved:
+                self.path, self.corrector = kept
+                self.path.restore(here.saved)
+        if not moved:
             return walk, False
         metric = Metric(self.path, walk.metric.weight)
         new = Walk(self.corrector, metric, found[0], goal(), walk.stride, self._watch, self._cut)

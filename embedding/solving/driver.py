@@ -49,8 +49,8 @@ class Run(Session):
             listener.started(self.problem)
         result, error = Result.CONVERGED, None
         try:
-            for number, stage in enumerate(self.scene.path):
-                result = self._stage(number, stage)
+            for number in range(len(self.scene.path)):
+                result = self._stage(number)
                 if not result.ok:
                     break
             error = estimate_error(self.problem, self.at, self.steps) if result.ok else None
@@ -65,7 +65,8 @@ class Run(Session):
             listener.finished(solution)
         return solution
 
-    def _stage(self, number: int, stage: Stage) -> Result:
+    def _stage(self, number: int) -> Result:
+        stage = self.scene.path[number]
         start, end = self._stage_start(stage), stage_target(stage, self.full_difference)
         with_field, joint = self.problem.system.physics.field is not None, self.solver is self.newton
         if followed(stage, start, end, with_field=with_field, joint=joint):

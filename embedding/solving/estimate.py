@@ -14,14 +14,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 from ngsolve import BND
 
 from embedding.coupling.linear import LinearSolverError
 from embedding.coupling.system import System
+from embedding.geometry.domain import Domain
 from embedding.geometry.ends import unknowns_on
+from embedding.geometry.remeshing import one_order_more
 from embedding.shell.bending import CurveBending
 from embedding.solving.events import StepRecord
 from embedding.solving.path import Target
@@ -129,24 +130,20 @@ def _response(steps: Sequence[StepRecord]) -> float:
 
 def _enriched_change(problem: Problem, target: Target, quantity: str) -> float | None:
     before = State(problem).scalars()[quantity]
-    order = problem.domain.sizes.order
-    try:
-        problem.mesh.Curve(order + 1)
-        richer = Enriched(problem)
+    with one_order_more(problem.domain) as domain:
+        richer = Enriched(problem, domain)
         after = State(richer).scalars()[quantity] if richer.improve(target) else None
-    finally:
-        problem.mesh.Curve(order)
     return None if after is None else abs(after - before) / max(abs(before), 1e-300)
 
 
 class Enriched(Problem):
-    """The same problem with fields of one order more on the same elements, started from the present state."""
+    """The same problem with the fields of ``domain``, of one order more on the same elements, started from the present
+    state."""
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, domain: Domain) -> None:
         self.scene, self.plan, self.scales = problem.scene, problem.plan, problem.scales
         self.reduction = problem.reduction
-        sizes = replace(problem.domain.sizes, order=problem.domain.sizes.order + 1)
-        self.domain = replace(problem.domain, sizes=sizes)
+        self.domain = domain
         physics = physics_of(self.scene, self.plan, self.scales, self.domain)
         self.system = System(self.domain, physics, self.scene.solver.linear)
         for name in self.system.unknowns.names:

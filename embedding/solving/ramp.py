@@ -67,7 +67,7 @@ def step(session: Session, stage: Stage, target: Target) -> Result | None:
         unstable = unstable_modes(system) if session.solver is session.newton else None
         reason = session.accept(stage.name, target, outcome.iterations, started, unstable)
     else:
-        session.detail = outcome.detail or session.detail
+        session.detail = outcome.detail
     if reason is not None:
         session.go_back(saved)
     return reason

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from embedding.errors import SceneError
 from embedding.geometry.remeshing import RemeshingError
 from embedding.plan import explain
 from embedding.scene import Scene
@@ -38,7 +39,7 @@ class Session:
         self.steps: list[StepRecord] = []
         self.critical: list[CriticalPoint] = []
         self.iterations = 0
-        self.detail = ""
+        self.detail, self.no_mesh = "", ""
         self.at = Target(0.0, 0.0, None, None if self.full_difference is None else 0.0)
 
     def _work_on(self, problem: Problem) -> None:
@@ -91,27 +92,31 @@ class Session:
         """Give the ambient a new mesh around the present shape at the present load, where ``settle`` finds equilibrium
         again; False, and nothing changed, if it does not or there is no such mesh."""
         kept = self.problem, self.state, self.newton, self.solver
+        settled = False
         try:
             problem = Remeshed(self.problem)
-        except RemeshingError as error:
-            self.detail = f"there is no new mesh of the ambient around this shape ({error})"
-            return self._stay()
-        self._work_on(problem)
-        self.newton.clock, self.solver.clock = kept[2].clock, kept[3].clock
-        self.load(self.at)
-        if not settle(problem):
-            self.problem, self.state, self.newton, self.solver = kept
-            return self._stay()
+            self._work_on(problem)
+            self.newton.clock, self.solver.clock = kept[2].clock, kept[3].clock
+            self.load(self.at)
+            settled = settle(problem)
+            self.no_mesh = "" if settled else "no equilibrium was found on a new mesh of the ambient around this shape"
+        except (RemeshingError, SceneError) as error:  # what a scene must not have may come true on the new mesh alone
+            self.no_mesh = f"there is no new mesh of the ambient around this shape ({error})"
+        finally:
+            if not settled:
+                self.problem, self.state, self.newton, self.solver = kept
+                self._stay()
+        if not settled:
+            return False
         self.remeshings, self._meshed_at = self.remeshings + 1, len(self.steps)
         for listener in self.listeners:
             listener.remeshed(problem)
         return True
 
-    def _stay(self) -> bool:
+    def _stay(self) -> None:
         """Go on with the mesh at hand, and do not try again before the next step."""
         self.load(self.at)
         self._meshed_at = len(self.steps)
-        return False
 
     def iterated(self, target: Target, iteration: Iteration) -> None:
         """Count a Newton step towards ``target``, and tell the listeners."""
@@ -141,7 +146,7 @@ class Session:
             time.perf_counter() - started,
         )  # fmt: skip
         self.steps.append(record)
-        self.at, self.detail = target, ""
+        self.at, self.detail, self.no_mesh = target, "", ""
         for listener in self.listeners:
             listener.accepted(self.state, record)
         return None
@@ -174,5 +179,6 @@ class Session:
             + (f", field {point.factor_field:.5g}" if with_field else "")
             for point in self.critical
         )
-        detail = f"{self.detail}: " if self.detail else ""
+        told = self.no_mesh if result is Result.INVERTED_AMBIENT and self.no_mesh else self.detail
+        detail = f"{told}: " if told else ""
         return f"stopped {done} (last good load: {where}{passed}): {detail}{result.advice}"

@@ -22,12 +22,15 @@ CASES: dict[str, Callable[[], Solution]] = {
 }
 
 
+PACED = [pytest.param(name, marks=pytest.mark.slow) if name == "charged balloon, 3D" else name for name in CASES]
+
+
 @cache
 def solved(name: str) -> Solution:
     return CASES[name]()
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", PACED)
 def test_updates_fall_tenfold_near_the_solution(name: str) -> None:
     """From an update of NEAR on, every next one is at most a tenth, until there is nothing left but rounding."""
     judged = 0
@@ -53,7 +56,7 @@ def test_convergence_is_quadratic(name: str) -> None:
                 assert after < max(100.0 * before**2, ROUNDING), f"step {step.number}: {updates}"
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", PACED)
 def test_few_iterations_from_a_warm_start(name: str) -> None:
     """Every step after the first of its stage starts from an equilibrium of the same kind."""
     steps = solved(name).steps

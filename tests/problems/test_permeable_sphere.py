@@ -106,6 +106,7 @@ def test_the_potential_jumps_by_what_the_shell_holds(permeability: float) -> Non
     assert permeability > 2.0 or orders(ratios, errors)[0] > 1.85
 
 
+@pytest.mark.slow
 def test_tractions_in_3d() -> None:
     coarse, fine = (rigid_error(0.1, 10.0, "model.reduction=3d", f"discretisation.shell_size={h} mm") for h in (8, 5))
     assert max(fine.values()) < 3e-3

@@ -56,9 +56,9 @@ def test_a_strip_that_touches_itself_is_told_of() -> None:
     assert 95 * solution.steps[-1].factor_mechanical == pytest.approx(83.7758, rel=0.02), "the full circle"
 
 
-ARC, RAMP = "path=[{steps=5}]", "path=[{control='load', steps=5}]"
+ARC, RAMP = "path=[{control='arc-length', steps=5}]", "path=[{control='load', steps=5}]"
 IN_TURN = "model.coupling='staggered'"
-IN_SPACE = ("model.reduction='3d'", "path=[{steps=2}]")
+IN_SPACE = ("model.reduction='3d'", "path=[{control='arc-length', steps=2}]")
 
 
 @pytest.mark.parametrize(
