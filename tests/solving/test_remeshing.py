@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from embedding import Listener, Solution, open_archive
-from embedding.solving import session
+from embedding.solving import arc, session
 from embedding.solving.driver import Run
 from embedding.solving.problem import Problem
 from embedding.solving.result import Result
-from problems import grounded_balloon, turned_in_a_field
+from problems import grounded_balloon, permeable_cylinder, permeable_sphere, turned_in_a_field
 
 ROUND = 'loads.edge_moments=[{ edge = "x1", moment = "83.7758 uN" }]'
 TOO_FAR = 'loads.edge_moments=[{ edge = "x1", moment = "95 uN" }]'
@@ -94,3 +94,38 @@ def test_through_a_limit_point(monkeypatch: pytest.MonkeyPatch) -> None:
     assert places[1] == pytest.approx(places[0], rel=5e-4)
     assert often["voltage"].argmax() < len(often["voltage"]) - 1
     assert often["voltage"][-1] == pytest.approx(plain["voltage"][-1], rel=1e-3)
+
+
+@pytest.mark.parametrize("order", [2, 3])
+def test_the_error_is_estimated_on_a_new_mesh_as_well(order: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Against a much finer solution: most of the error is that of the shell's geometry, which no new mesh changes."""
+    monkeypatch.setattr(session, "WORN", 1.0)
+    path = "path=[{steps=2, field=0.0}, {steps=3}]"
+    fine = permeable_sphere.run(path, "discretisation.order=4", "discretisation.shell_size=2 mm")
+    found = permeable_sphere.run(path, f"discretisation.order={order}")
+    assert found["remeshings"][-1] >= 2 and found.error is not None
+    true = abs(found["stretch"][-1] / fine["stretch"][-1] - 1.0)
+    assert 0.5 < found.error.parts["discretisation"] / true < 2.0
+
+
+def test_a_mesh_that_the_scene_forbids_is_not_taken() -> None:
+    """Elements beside the shell of a new mesh would reach a wire: the old one serves on."""
+    wire = 'ambient.line_currents=[{through=["62 mm", "0 mm", "0 mm"], along=[0, 0, 1], current="10 A"}]'
+    path = "path=[{steps=10, field=0.0, control='volume', volume_ratio=8}]"
+    solution = Run(permeable_cylinder.scene(wire, path), ()).solve()
+    assert solution.result.ok and solution["remeshings"][-1] == 0
+    assert solution["min_jacobian"].min() < session.WORN
+
+
+def test_an_interrupt_while_a_new_mesh_settles(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every accepted step is kept, and the state is the last one of them."""
+    monkeypatch.setattr(session, "WORN", 1.0)
+
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(arc, "settled", interrupted)
+    run = Run(grounded_balloon.scene(ARC), ())
+    solution = run.solve()
+    assert solution.result is Result.INTERRUPTED and solution.steps
+    assert run.state.scalars()["stretch"] == pytest.approx(solution["stretch"][-1], rel=1e-12)
