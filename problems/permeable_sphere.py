@@ -89,21 +89,25 @@ def reference(scene: Scene, theta: Array) -> dict[str, Array]:
 
     Raises ValueError without an ambient or a permeability.
     """
+    sphere = exact(scene)
+    tractions = np.array([sphere.tractions(float(angle)) for angle in theta])
+    return dict(zip(COMPONENTS, tractions.T, strict=True))
+
+
+def exact(scene: Scene) -> PermeableSphere:
+    """The undeformed shell of ``scene`` at mid radius 1, in SI units; ValueError without a permeability."""
     ratio, permeability = thickness_ratio(scene), scene.shell.relative_permeability
     if scene.ambient is None or permeability is None:
         raise ValueError("the reference is a permeable shell in a magnetic field")
-    sphere = PermeableSphere(1 - ratio / 2, 1 + ratio / 2, permeability, scene.ambient.applied_field[2], MU_0)
-    exact = np.array([sphere.tractions(float(angle)) for angle in theta])
-    return dict(zip(COMPONENTS, exact.T, strict=True))
+    return PermeableSphere(1 - ratio / 2, 1 + ratio / 2, permeability, scene.ambient.applied_field[2], MU_0)
 
 
 def error(scene: Scene, found: FieldTractions) -> dict[str, float]:
     """Root mean square error over the sphere of each traction, relative to its own root mean square."""
     weight = np.sin(found.theta)
-    exact = reference(scene, found.theta)
     return {
         name: float(np.sqrt(np.sum(weight * (found.values[name] - known) ** 2) / np.sum(weight * known**2)))
-        for name, known in exact.items()
+        for name, known in reference(scene, found.theta).items()
     }
 
 

@@ -75,6 +75,24 @@ def test_a_held_shell_feels_the_same(permeability: float) -> None:
         assert held.values[name] == pytest.approx(stiff.values[name], abs=1e-5 * scale)
 
 
+def test_a_nearly_ideal_shield() -> None:
+    """mu_r = 1e6: the cavity's field, 1e-5 of the applied one, and the tractions it brings are of second order. On the
+    outside the tangential traction is 1e-5 of the normal one; there both are at the floor of the mesh."""
+    errors: list[dict[str, float]] = []
+    for ratio in (0.1, 0.05):
+        found = FieldTractions()
+        changes = (*rigid(ratio, 1e6), "shell.material.shear_modulus=30 kPa", HELD, *FINE)
+        stated = permeable_sphere.run(*changes, listeners=[found]).scene
+        exact = permeable_sphere.reference(stated, found.theta)
+        tangential = np.sqrt(np.mean((found.values["tau_t"] - exact["tau_t"]) ** 2) / np.mean(exact["p_t"] ** 2))
+        inner = permeable_sphere.inner_field(found) / permeable_sphere.exact(stated).inner_field - 1.0
+        errors.append(permeable_sphere.error(stated, found) | {"tau_t": float(tangential), "inner field": abs(inner)})
+    coarse, fine = errors
+    assert max(error[name] for error in errors for name in ("p_t", "tau_t")) < 1e-6
+    for name in ("p_b", "tau_b", "inner field"):
+        assert coarse[name] < 4e-3 and fine[name] < 0.3 * coarse[name]
+
+
 class PotentialJump(Listener):
     """phi_t - phi_b over phi's scale H0 R at the pole, read from the unknowns of the system."""
 
