@@ -6,6 +6,7 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"  # read once, when ngsolve loads OpenBL
 
 import random
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,3 +22,11 @@ def fixed_random_numbers() -> Iterator[None]:
     random.seed(20240229)
     np.random.seed(20240229)
     yield
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: Any, log: Any) -> Any:
+    """Runs of tests stay on one process, which keeps what a module solves once; the idle one takes from the end."""
+    from xdist.scheduler import WorkStealingScheduling
+
+    return WorkStealingScheduling(config, log)

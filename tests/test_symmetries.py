@@ -112,7 +112,7 @@ def test_the_field_may_be_reversed(along_z: Solution) -> None:
     same(dielectric((0.0, 0.0, -1.0), reduction="axisymmetric"), along_z, 1e-9)
 
 
-@pytest.mark.parametrize("reduction", ["axisymmetric", "3d"])
+@pytest.mark.parametrize("reduction", ["axisymmetric", pytest.param("3d", marks=pytest.mark.slow)])
 def test_charges_may_be_reversed(reduction: str) -> None:
     faces = [Faces(top=Electrode(voltage=s * 1e3), bottom=Electrode(voltage=s * 3e3)) for s in (1, -1)]
     one, other = (dielectric((0.0, 0.0, 0.0), faces=f, order=2, reduction=reduction) for f in faces)

@@ -88,6 +88,7 @@ def test_shallow_arch_without_snap() -> None:
     assert arch.scaled_load(1.0, 2.0, 0.1, 3.0) == pytest.approx(2.0 * g * 3.0 * (math.pi / 2.0) ** 4)
 
 
+@pytest.mark.slow
 def test_deep_arch() -> None:
     """8.97 EI / R^2, DaDeppo and Schmidt (1975), clamped-hinged with an opening of 215 degrees."""
     limit = CircularArch(math.radians(107.5)).limit()

@@ -36,7 +36,10 @@ def test_published_limit_and_rising_branch() -> None:
         assert membrane.at_pressure(pressure).deflection == pytest.approx(deflection, abs=1e-10)
 
 
-@pytest.mark.parametrize("law", [neo_hookean(2.0), mooney_rivlin(0.4, 0.1), Gent(1.0, 30.0)])
+STIFF = pytest.param(Gent(1.0, 30.0), marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("law", [neo_hookean(2.0), mooney_rivlin(0.4, 0.1), STIFF])
 def test_pressure_is_the_derivative_of_the_energy(law: Law) -> None:
     """dE = p dV along the path, E the integral of W over the disc: no use of the equilibrium equations."""
 
@@ -57,6 +60,7 @@ def test_pressure_is_the_derivative_of_the_energy(law: Law) -> None:
     assert membrane.state(1.6, law).pressure == pytest.approx(work, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_stiffer_laws_raise_or_remove_the_limit() -> None:
     soft = membrane.limit_state(mooney_rivlin(0.48, 0.02))
     assert soft is not None and soft.pressure > 1.8791734688

@@ -102,6 +102,7 @@ def test_compression_alone_is_enough_for_one_modulus() -> None:
     assert values(fit.material) == pytest.approx([2e5], rel=1e-8)
 
 
+@pytest.mark.slow
 def test_the_same_in_every_run() -> None:
     data = made(MATERIALS["ogden"], noise=0.05)
     assert fit_law("ogden", data).material == fit_law("ogden", data).material

@@ -191,6 +191,7 @@ def test_elements_between_rims_have_sides(name: str) -> None:
     assert found == {"outside_near", "inside_near"}
 
 
+@pytest.mark.slow
 def test_no_element_is_folded(monkeypatch: pytest.MonkeyPatch) -> None:
     """The mesh of these sizes has elements that fold when they are curved; a somewhat finer one is taken, or none."""
     shape, reduction = CASES["prolate spheroid"].shape, Reduction("3d")

@@ -26,6 +26,7 @@ def test_bending_of_a_charged_balloon() -> None:
     assert orders(RATIOS, errors) == pytest.approx([2.0, 2.0], abs=0.2)
 
 
+@pytest.mark.slow
 def test_3d_is_axisymmetric() -> None:
     solid = charged_balloon.run(STEPS, BENDING, "model.reduction=3d", "discretisation.shell_size=10 mm")
     flat = charged_balloon.run(STEPS, BENDING)

@@ -22,7 +22,7 @@ CASES: dict[str, Callable[[], Solution]] = {
 }
 
 
-PACED = [pytest.param(name, marks=pytest.mark.slow) if name == "charged balloon, 3D" else name for name in CASES]
+PACED = [pytest.param(name, marks=pytest.mark.slow) if "3D" in name else name for name in CASES]
 
 
 @cache

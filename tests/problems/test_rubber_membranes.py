@@ -38,6 +38,7 @@ def test_the_limit_pressure_converges_at_twice_the_order(order: int) -> None:
     assert min(orders(SIZES, errors)) > 2 * order - 0.3
 
 
+@pytest.mark.slow
 def test_mooney_rivlin_has_no_limit_on_the_way() -> None:
     """c2 = c1 / 4: the pressure rises all along the path, on the exact curve."""
     material = "shell.material={law = 'mooney-rivlin', c1 = '40 kPa', c2 = '10 kPa'}"

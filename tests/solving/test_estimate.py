@@ -21,6 +21,7 @@ from embedding import (
     Stage,
     solve,
 )
+from embedding.geometry.remeshing import one_order_more
 from embedding.scene import EPSILON_0
 from embedding.solving.estimate import Enriched
 from problems import capacitances
@@ -96,9 +97,10 @@ def test_the_next_order_starts_with_the_ambient_where_it_is() -> None:
     """The interior of the ambient goes along, and need not walk again to where the faces are."""
     problem = coupled("3d", "conductor")
     distort(problem, 0.3)
-    richer = Enriched(problem)
-    for side, motion in problem.system.motions.items():
-        follower = richer.system.motions[side]
-        assert np.array_equal(follower.w.vec.FV().NumPy(), motion.w.vec.FV().NumPy())
-        assert richer.system.follow()
-        assert np.array_equal(follower.w.vec.FV().NumPy(), motion.w.vec.FV().NumPy())
+    with one_order_more(problem.domain) as domain:
+        richer = Enriched(problem, domain)
+        for side, motion in problem.system.motions.items():
+            follower = richer.system.motions[side]
+            assert np.array_equal(follower.w.vec.FV().NumPy(), motion.w.vec.FV().NumPy())
+            assert richer.system.follow()
+            assert np.array_equal(follower.w.vec.FV().NumPy(), motion.w.vec.FV().NumPy())

@@ -96,7 +96,7 @@ def test_through_a_limit_point(monkeypatch: pytest.MonkeyPatch) -> None:
     assert often["voltage"][-1] == pytest.approx(plain["voltage"][-1], rel=1e-3)
 
 
-@pytest.mark.parametrize("order", [2, 3])
+@pytest.mark.parametrize("order", [2, pytest.param(3, marks=pytest.mark.slow)])
 def test_the_error_is_estimated_on_a_new_mesh_as_well(order: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Against a much finer solution: most of the error is that of the shell's geometry, which no new mesh changes."""
     monkeypatch.setattr(session, "WORN", 1.0)
