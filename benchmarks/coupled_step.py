@@ -25,6 +25,7 @@ from typing import Any
 
 from ngsolve import BND, SetNumThreads, TaskManager
 
+from benchmarks.pages import tell
 from benchmarks.scenes import balloon
 from embedding.plan import explain
 from embedding.solving.newton import Newton
@@ -119,20 +120,8 @@ def report() -> Iterator[str]:
 def main(arguments: list[str]) -> None:
     """Print the table; with "docs" also write the page's."""
     docs = arguments == ["docs"]
-    lines = []
-    for line in table(tuple(MESHES) if docs else [int(size) for size in arguments] or DEFAULT):
-        lines.append(line)
-        print(line, flush=True)
-    if docs:
-        write(PAGE, "<!-- coupled step -->", lines)
-
-
-def write(page: Path, mark: str, lines: Sequence[str]) -> None:
-    """Put ``lines`` on the ``page`` between ``mark`` and the end after it."""
-    text = page.read_text()
-    start = text.index(mark) + len(mark)
-    end = text.index("<!-- end -->", start)
-    page.write_text("\n".join([text[:start], "", *lines, "", text[end:]]))
+    sizes = tuple(MESHES) if docs else [int(size) for size in arguments] or DEFAULT
+    tell(table(sizes), PAGE if docs else None, "<!-- coupled step -->")
 
 
 if __name__ == "__main__":

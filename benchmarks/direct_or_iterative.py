@@ -19,7 +19,8 @@ from typing import Any
 
 from ngsolve import SetNumThreads, TaskManager
 
-from benchmarks.coupled_step import LARGER, PAGE, inflate, write
+from benchmarks.coupled_step import LARGER, PAGE, inflate
+from benchmarks.pages import tell
 from benchmarks.scenes import balloon
 from embedding.plan import explain
 from embedding.solving.problem import Problem
@@ -79,12 +80,7 @@ def report() -> Iterator[str]:
 
 def main(arguments: list[str]) -> None:
     """Print the table; with "docs" also write the page's."""
-    lines = []
-    for line in report():
-        lines.append(line)
-        print(line, flush=True)
-    if arguments == ["docs"]:
-        write(PAGE, "<!-- direct or iterative -->", lines)
+    tell(report(), PAGE if arguments == ["docs"] else None, "<!-- direct or iterative -->")
 
 
 if __name__ == "__main__":

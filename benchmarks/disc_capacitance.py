@@ -34,6 +34,7 @@ from ngsolve import (
     dx,
 )
 
+from benchmarks.pages import tell
 from embedding.ambient.far import far_field
 from embedding.geometry.domain import Domain, MeshSizes, build
 from embedding.geometry.reduction import Name, Reduction
@@ -161,14 +162,7 @@ def report() -> Iterator[str]:
 
 def main(arguments: list[str]) -> None:
     """Print the table; with "docs" also write the page's."""
-    lines = []
-    for line in report():
-        lines.append(line)
-        print(line, flush=True)
-    if arguments == ["docs"]:
-        page = PAGE.read_text()
-        start, end = page.index("<!-- table -->"), page.index("<!-- end -->")
-        PAGE.write_text("\n".join([page[:start] + "<!-- table -->", "", *lines, "", page[end:]]))
+    tell(report(), PAGE if arguments == ["docs"] else None)
 
 
 if __name__ == "__main__":

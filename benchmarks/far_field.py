@@ -20,6 +20,7 @@ from netgen.occ import Pnt, Sphere
 from ngsolve import Grad, InnerProduct, Norm, dx
 
 from benchmarks.open_space import Answer, Region, Request, answer, open_space, sphere_answer
+from benchmarks.pages import tell
 from embedding.ambient.far import beyond, far_field
 from embedding.geometry.domain import Domain
 from embedding.geometry.surroundings import REACH
@@ -132,14 +133,7 @@ def report() -> Iterator[str]:
 
 def main(arguments: list[str]) -> None:
     """Print the table; with "docs" also write the page's."""
-    lines = []
-    for line in report():
-        lines.append(line)
-        print(line, flush=True)
-    if arguments == ["docs"]:
-        page = PAGE.read_text()
-        start, end = page.index("<!-- table -->"), page.index("<!-- end -->")
-        PAGE.write_text("\n".join([page[:start] + "<!-- table -->", "", *lines, "", page[end:]]))
+    tell(report(), PAGE if arguments == ["docs"] else None)
 
 
 if __name__ == "__main__":

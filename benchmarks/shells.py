@@ -13,6 +13,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from benchmarks.pages import write
 from problems import half_cylinder, hemisphere_with_hole, hinged_roof, pulled_cylinder, slit_annulus, t_cantilever
 from problems.common import LoadPath, curve_through
 from problems.published.case import Case
@@ -88,10 +89,7 @@ def main(arguments: list[str]) -> None:
     table = [*head, *(row for problem in PROBLEMS for row in rows(problem, found[problem.CASE.name]))]
     print("\n".join(table))
     if arguments == ["docs"]:
-        page = (DOCS / "benchmarks.md").read_text()
-        start, end = page.index("<!-- table -->"), page.index("<!-- end -->")
-        written = "\n".join([page[:start] + "<!-- table -->", "", *table, "", page[end:]])
-        (DOCS / "benchmarks.md").write_text(written)
+        write(DOCS / "benchmarks.md", table)
         draw(found, DOCS / "images" / "benchmarks.png")
 
 

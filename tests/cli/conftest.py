@@ -9,22 +9,7 @@ from pathlib import Path
 import pytest
 
 from embedding.cli import main
-
-SCENE = """
-name = "small balloon"
-
-[shell]
-thickness = "0.2 mm"
-shape = { kind = "sphere", radius = "20 mm" }
-material = { law = "neo-hookean", shear_modulus = "100 kPa" }
-
-[loads]
-pressure_bottom = "500 Pa"
-
-[[path]]
-name = "inflate"
-steps = 2
-"""
+from tests.balloons import SMALL as SCENE
 
 
 @dataclass(frozen=True)

@@ -14,25 +14,8 @@ from typing import Any
 
 from embedding import Scene
 from embedding.studies import Study, cases_of
+from tests.balloons import SMALLEST as SCENE
 
-SCENE = """
-name = "small balloon"
-
-[shell]
-thickness = "0.2 mm"
-shape = { kind = "sphere", radius = "20 mm" }
-material = { law = "neo-hookean", shear_modulus = "100 kPa" }
-
-[loads]
-pressure_bottom = "500 Pa"
-
-[[path]]
-name = "inflate"
-steps = 1
-
-[discretisation]
-order = 2
-"""
 PRESSURE = "loads.pressure_bottom"
 QUANTITIES = {"stretch": "stretch", "largest": "max of stretch_max", "reached": "pressure_difference at last"}
 
