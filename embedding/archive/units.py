@@ -10,7 +10,9 @@ UNITS = {
     "min_principal_stress": "Pa",
     "displacement": "m",
 }
-EXTENSIVE = {"field_energy": "J", "elastic_energy": "J", "held_force": "N"}
+EXTENSIVE = {
+    "field_energy": "J", "elastic_energy": "J", "load_work": "J", "support_work": "J", "held_force": "N",
+}  # fmt: skip
 OF_PARTS = {"voltage": "V", "charge": "C", "force": "N", "torque": "N m"}
 """Of the shell, of its film, of a body, along an axis: ``charge_body0``, ``torque_z``."""
 PER_LENGTH = {"J": "J/m", "N": "N/m", "C": "C/m", "N m": "N"}

@@ -166,7 +166,7 @@ class Lagrangian:
         kinematics = self.kinematics(values)
         energy = self._membrane_energy(kinematics)
         if self.unknowns.bending is not None:
-            energy = energy + self.unknowns.bending.stored(values, kinematics)
+            energy = energy + self.unknowns.bending.stored(values, kinematics, self.factors.mechanical)
         return self.measure * energy
 
     def _membrane_energy(self, kinematics: Kinematics) -> Any:

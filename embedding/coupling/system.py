@@ -22,6 +22,7 @@ from embedding.coupling.potential_solve import PotentialSolve
 from embedding.coupling.resultants import BodyResultants, ShellResultants
 from embedding.coupling.tractions import FaceTractions
 from embedding.coupling.unknowns import SIDES, Unknowns
+from embedding.coupling.work import LoadWork
 from embedding.geometry.domain import Domain
 from embedding.geometry.places import displaced
 from embedding.geometry.spaces import Mask
@@ -55,6 +56,7 @@ class System:
             self.following = Following(domain, self.lagrangian.field, self.unknowns, motion)
         self.resultants = self._resultants()
         self._point_forces = point_load_vector(domain, self.unknowns.trace, physics.loads)
+        self.load_work = LoadWork(self.lagrangian, self._point_forces)
         self._displaced = displaced(domain, self.unknowns.trace, physics.prescribed)
         self._held: tuple[str, ...] = ()
         self._solver = self._linear_solver(())
@@ -180,6 +182,11 @@ class System:
         if self.following is not None:
             self.following.add_to(residual)
         return residual
+
+    def support_work(self) -> float | None:
+        """What the reactions of supports that move do on all of the displacement given to them; None without any."""
+        where, displacements = self._displaced
+        return float(self.residual().FV().NumPy()[where] @ displacements) if len(where) else None
 
     def _measure_rotations(self) -> None:
         """Let bending measure rotations from the present state, if it has moved. The equilibrium is the same for any

@@ -106,7 +106,7 @@ class State:
             Field("shell", "normal", "1", k.normal),
         ]
         if self._unknowns.bending is not None:
-            moments = self._unknowns.bending.principal_moments(self._values, k)
+            moments = self._unknowns.bending.principal_moments(self._values, k, self._system.factors.mechanical)
             for name, moment in zip(("moment_major", "moment_minor"), moments, strict=True):
                 out.append(Field("shell", name, "N", scales.force * moment))
         for face, traction in self._system.tractions.items():
@@ -173,6 +173,11 @@ class State:
         )
         if "axial" in self._values:
             named["axial_stretch"] = float(self._values["axial"].vec[0])
+        if self._system.load_work.known:
+            named["load_work"] = energy * self._system.load_work.at_full_strength()
+        support_work = self._system.support_work()
+        if support_work is not None:
+            named["support_work"] = energy * support_work
         if self._unknowns.rigid:
             named["held_force"] = self._scales.stress * self._scales.length ** (self._lengths - 1) * self.held_force
         return named | self._field_scalars(energy)

@@ -100,17 +100,18 @@ class CurveBending:
         s, c = sin(self._turned), cos(self._turned)
         return self._turned + atan2(c * sine - s * cosine, c * cosine + s * sine)
 
-    def stored(self, values: dict[str, Any], kinematics: Kinematics) -> Any:
+    def stored(self, values: dict[str, Any], kinematics: Kinematics, factor: Any) -> Any:
         """Bending energy per reference area of converged moments, as a coefficient function."""
-        moment = self._moment(values["moment"], kinematics)
+        moment = self._moment(values["moment"] + factor * self._given, kinematics)
         return self.stiffness.stored(kinematics, moment, self._hoop_curvature(kinematics))
 
-    def principal_moments(self, values: dict[str, Any], kinematics: Kinematics) -> tuple[Any, Any]:
+    def principal_moments(self, values: dict[str, Any], kinematics: Kinematics, factor: Any) -> tuple[Any, Any]:
         """Larger and smaller of meridional and hoop bending moment per deformed length, lambda l_i^2 m_ii / J_s."""
-        q = values["moment"]
+        q = values["moment"] + factor * self._given
         moment, hoop_curvature = q * kinematics.hoop, CF(0.0)
         if self._axisymmetric:
-            on_axis = InnerProduct(surface_gradient(q), self._tangent) / self._tangent[0]  # q / R where R = 0
+            slope = surface_gradient(values["moment"]) + factor * surface_gradient(self._given)
+            on_axis = InnerProduct(slope, self._tangent) / self._tangent[0]  # q / R where R = 0
             moment = IfPos(x - ON_AXIS, q / x, on_axis) * kinematics.hoop
             N = kinematics.reference_normal
             spread = IfPos(x - ON_AXIS, (N[0] * kinematics.hoop - kinematics.director[0]) / x, CF(0.0))

@@ -176,11 +176,14 @@ class SurfaceBending:
         across = self._sign * InnerProduct(rotation, nu) * moment[nu, nu]
         return self.domain.reduction.measure * across * self._edges
 
-    def stored(self, values: dict[str, Any], kinematics: Kinematics) -> Any:
-        """Bending energy per reference area of converged moments, as a coefficient function: W_b = W_b* there."""
+    def stored(self, values: dict[str, Any], kinematics: Kinematics, factor: Any) -> Any:
+        """Bending energy per reference area of converged moments, as a coefficient function: W_b = W_b* there.
+
+        The moments given on edges, ``factor`` times them, are in the unknown.
+        """
         return self.stiffness.dual(kinematics, values["moment"])
 
-    def principal_moments(self, values: dict[str, Any], kinematics: Kinematics) -> tuple[Any, Any]:
+    def principal_moments(self, values: dict[str, Any], kinematics: Kinematics, factor: Any) -> tuple[Any, Any]:
         """Larger and smaller principal bending moment per deformed length, of lambda F m F^T / J_s."""
         F = kinematics.deformation_gradient
         pushed = (F * values["moment"]) * F.trans / kinematics.surface_stretch_squared
