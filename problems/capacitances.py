@@ -1,20 +1,23 @@
 """Capacitances of conductors alone and in pairs, and the forces between them, against exact values.
 
 Physics: the shell keeps its shape, so that this is the field alone: bowls whose rims carry an infinite charge density,
-smooth bodies, a sphere beside another one and over a grounded plane that goes on to infinity; a square, which takes
-three dimensions.
+smooth bodies, a sphere beside another one and over a grounded plane that goes on to infinity; a square and a cube,
+which take three dimensions.
 
-Reference: `problems.exact.capacitance` (Kelvin's bowls, spheroids, ring torus, the square by boundary elements) and
-`problems.exact.conducting_spheres` (Maxwell's images).
+Reference: `problems.exact.capacitance` (Kelvin's bowls, spheroids, ring torus, the square by boundary elements, the
+cube by random walks) and `problems.exact.conducting_spheres` (Maxwell's images).
 
-Run: about half a minute.
+Run: a few minutes, most of them for the cube.
 """
 
 from __future__ import annotations
 
 import math
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import NamedTuple
+
+from netgen.occ import Box, Pnt
 
 from embedding import Scene, Solution, load_scene, solve
 from embedding.scene.scales import EPSILON_0
@@ -46,22 +49,26 @@ def _spheroid(polar: float) -> Conductor:
 
 SMOOTH = {
     "sphere": Conductor(f"{{kind = 'sphere', radius = {R}}}", capacitance.sphere(R, EPSILON_0)),
-    "oblate spheroid 1:5": _spheroid(0.2 * R),
-    "oblate spheroid 1:2": _spheroid(0.5 * R),
-    "prolate spheroid 2:1": _spheroid(2.0 * R),
+    **{f"oblate spheroid 1:{ratio:g}": _spheroid(R / ratio) for ratio in (1.1, 1.5, 2.0, 3.0, 5.0, 10.0)},
+    **{f"prolate spheroid {ratio:g}:1": _spheroid(R * ratio) for ratio in (1.1, 1.5, 2.0, 3.0, 5.0, 10.0)},
     "torus": Conductor(
         f"{{kind = 'torus', radius = {R}, tube_radius = {0.4 * R}}}", capacitance.torus(R, 0.4 * R, EPSILON_0)
     ),
 }
 RIMMED = {
     "disc": Conductor(f"{{kind = 'disc', radius = {R}}}", capacitance.disc(R, EPSILON_0)),
-    "bowl of 60 degrees": _bowl(60.0),
-    "hemisphere": _bowl(90.0),
-    "bowl of 120 degrees": _bowl(120.0),
+    **{f"bowl of {angle:g} degrees": _bowl(angle) for angle in (10.0, 30.0, 45.0, 60.0, 90.0, 120.0, 170.0)},
 }
 SQUARE = Conductor(
     f"{{kind = 'plate', length = {2 * R}, width = {2 * R}, centred = true}}", capacitance.square(2 * R, EPSILON_0)
 )
+
+
+def cube(file: Path) -> Conductor:
+    """A cube of the edge 2 R, as faces in a new BREP ``file``."""
+    corner = 1e3 * R
+    Box(Pnt(-corner, -corner, -corner), Pnt(corner, corner, corner)).WriteBrep(str(file))
+    return Conductor(f"{{kind = 'file', path = '{file}'}}", capacitance.cube(2 * R, EPSILON_0))
 
 
 def scene(*changes: str) -> Scene:
@@ -136,6 +143,9 @@ if __name__ == "__main__":
     low, high = (error(SQUARE, f"discretisation.order={order}") for order in (1, 2))
     print(f"{'square':21} {SQUARE.known * 1e12:.5f} pF: {high:+.1e}; potentials of order 2, 3, and ", end="")
     print(f"their limit: {low:+.1e}, {high:+.1e}, {beyond_order(low, high, 2):+.1e}")
+    with TemporaryDirectory() as place:
+        conductor = cube(Path(place) / "cube.brep")
+        print(f"{'cube':21} {conductor.known * 1e12:.5f} pF: {error(conductor):+.1e}")
     for distance in (0.032, 0.044, 0.06):
         print(f"spheres {distance} m apart: {', '.join(f'{k} {e:+.1e}' for k, e in pair_errors(distance).items())}")
     for height in (0.025, 0.04):

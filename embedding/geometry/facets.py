@@ -154,17 +154,27 @@ class Facets:
             mask[[edge.nr for edge in element.edges] if self.mesh.dim == 3 else [v.nr for v in element.vertices]] = True
         return mask
 
-    def kinks(self, normal: Any) -> Mask:
+    def kinks(self, normal: Any, least: float = KINK) -> Mask:
         """Facets between two elements across which the unit ``normal`` jumps.
 
         Within a smooth face the normals of curved elements jump a little as well, by the error of the geometry. A kink
-        lies on an edge of the geometry, is at least ``KINK`` and twice as large as the largest of those jumps.
+        lies on an edge of the geometry, is at least the angle ``least`` and twice as large as the largest of those
+        jumps.
         """
+        facet, angle = self._jumps(normal)
+        candidates = self.on_edges[facet]
+        mask = np.zeros(self.count, bool)
+        mask[facet[candidates & (angle > max(least, 2 * angle[~candidates].max(initial=0.0)))]] = True
+        return mask
+
+    def sharpest(self, normal: Any) -> float:
+        """The largest angle of the kinks, in rad; 0 without any."""
+        facet, angle = self._jumps(normal)
+        return float(angle[self.kinks(normal)[facet]].max(initial=0.0))
+
+    def _jumps(self, normal: Any) -> tuple[Integers, Floats]:
+        """Facets between two elements, and the angle by which the unit ``normal`` jumps there."""
         facet, one, local_one, other, local_other = self.pairs.T
         normals = self.at_facets(normal)
         gap = np.linalg.norm(normals[one, local_one] - normals[other, local_other], axis=1)
-        angle = 2 * np.arcsin(np.minimum(gap / 2, 1.0))
-        candidates = self.on_edges[facet]
-        mask = np.zeros(self.count, bool)
-        mask[facet[candidates & (angle > max(KINK, 2 * angle[~candidates].max(initial=0.0)))]] = True
-        return mask
+        return facet, 2 * np.arcsin(np.minimum(gap / 2, 1.0))

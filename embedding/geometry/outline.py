@@ -8,17 +8,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
+import numpy as np
 from netgen.meshing import MeshingParameters, MeshingStep
 from netgen.occ import Edge, OCCGeometry, Pnt, Wire
-from ngsolve import Mesh
+from ngsolve import Mesh, specialcf
 
+from embedding.geometry.facets import Facets
 from embedding.geometry.sizes import AT_POINTS, MeshSizes
+from embedding.scene.shapes.base import SHARP
 
 CLOSE = 1e-6
 SEAM = "seam"
 """Name of edges that only join faces of one smooth surface."""
+SHARP_ANGLE = np.radians(30.0)
+"""Around a conductor's edge the potential goes like r^(pi / (pi + angle)): above this it is worth small elements."""
 Names = Callable[[Edge], str | None]
 
 
@@ -31,12 +37,30 @@ class SurfaceOutline:
 
     def prepare(self, sizes: MeshSizes) -> None:
         """Name and size the faces and edges."""
+        sharp = self._sharp if SHARP in dict(sizes.edges) else frozenset()
         for face in self.shape.faces:
             face.name = "shell"
         for edge in filter(real, self.shape.edges):
             edge.name = self.name(edge) or edge.name
             if edge.name:
                 edge.maxh = sizes.along(edge.name)
+            if edge in sharp:
+                edge.maxh = min(edge.maxh, sizes.along(SHARP))
+
+    @cached_property
+    def _sharp(self) -> frozenset[Edge]:
+        """Edges at which faces meet at an angle of at least ``SHARP_ANGLE``, found on a coarse mesh."""
+        edges = [edge for edge in self.shape.edges if real(edge)]
+        for face in self.shape.faces:
+            face.name = "shell"
+        for number, edge in enumerate(edges):
+            edge.name = f"edge {number}"
+        low, high = self.shape.bounding_box
+        wanted = MeshingParameters(maxh=(high - low).Norm() / 5, perfstepsend=MeshingStep.MESHSURFACE)
+        mesh = Mesh(generated(OCCGeometry(self.shape), wanted)).Curve(2)
+        facets = Facets(mesh, mesh.Boundaries("shell"))
+        kinks = facets.kinks(specialcf.normal(3), SHARP_ANGLE)
+        return frozenset(edge for edge in edges if np.any(kinks & facets.named(edge.name)))
 
     def number(self, sizes: MeshSizes) -> None:
         """Name and size the faces for a mesh of the space around them."""

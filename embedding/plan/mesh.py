@@ -10,11 +10,12 @@ from embedding.plan.decisions import Decision
 from embedding.plan.far_field import choose_far_field
 from embedding.plan.field import ROOM
 from embedding.scene import Ambient, Body, BoxBody, CylinderBody, HalfSpace, Scene, SphereBody
+from embedding.scene.checks_electrodes import one_conductor
 
 SHELL_SIZE = {"3d": 0.4, "axisymmetric": 0.2, "plane-strain": 0.2}
 FLAT_SIZE = 0.35
 AT_RIMS = {"3d": 0.25, "axisymmetric": 0.05, "plane-strain": 0.05}
-"""Elements along a rim, around which the field is singular, over those on the rest of the shell."""
+"""Elements along a rim or a conductor's sharp edge, where the field is singular, over those on the rest of it."""
 
 
 def choose_sizes(scene: Scene, reduction: str, *, meshed: bool) -> tuple[MeshSizes, tuple[Decision, ...]]:
@@ -28,9 +29,9 @@ def choose_sizes(scene: Scene, reduction: str, *, meshed: bool) -> tuple[MeshSiz
     decisions = [Decision("mesh on the shell", f"{shell:.3g} x size", origin)]
     if scene.ambient is None or not meshed:
         return MeshSizes(shell, shell, 0.0, chosen.grading, chosen.order, edges), tuple(decisions)
-    if not scene.shell.shape.closed and not edges:
-        edges, decision = _at_rims(scene, reduction, shell)
-        decisions.append(decision)
+    if not edges:
+        edges, decided = _at_edges(scene, reduction, shell)
+        decisions += decided
     box, radius, beyond, end = _end(scene, scene.ambient)
     decisions += end
     far = chosen.ambient_size / size if chosen.ambient_size else radius / 2
@@ -41,13 +42,21 @@ def choose_sizes(scene: Scene, reduction: str, *, meshed: bool) -> tuple[MeshSiz
     return sizes, tuple(decisions)
 
 
-def _at_rims(scene: Scene, reduction: str, shell: float) -> tuple[tuple[tuple[str, float], ...], Decision]:
-    """Smaller elements along all edges, that leave room for opened faces."""
-    thickness = scene.shell.thickest / scene.shell.shape.size
-    size = min(shell, max(AT_RIMS[reduction] * shell, 1.2 * ROOM * thickness))
-    reason = "the field is singular at a rim; no smaller than three thicknesses, for the faces that meet there"
-    edges = tuple((edge, size) for edge in scene.shell.shape.edges)
-    return edges, Decision("mesh at rims", f"{size:.3g} x size", reason)
+def _at_edges(
+    scene: Scene, reduction: str, shell: float
+) -> tuple[tuple[tuple[str, float], ...], tuple[Decision, ...]]:
+    """Smaller elements along the edges at which the field is singular, that leave room for opened faces."""
+    shape = scene.shell.shape
+    kinks = shape.kinks if shape.closed and one_conductor(scene) else ()
+    names, where = (kinks, "sharp edges") if shape.closed else (shape.edges, "rims")
+    if not names:
+        return (), ()
+    size, reason = AT_RIMS[reduction] * shell, "the field is singular there"
+    if scene.model.interface != "closed":
+        size = max(size, 1.2 * ROOM * scene.shell.thickest / shape.size)
+        reason += "; no smaller than three thicknesses, for opened faces"
+    size = min(shell, size)
+    return tuple((edge, size) for edge in names), (Decision(f"mesh at {where}", f"{size:.3g} x size", reason),)
 
 
 def _end(

@@ -63,10 +63,11 @@ def _reduction(scene: Scene) -> Iterator[Problem]:
 def _edge_sizes(scene: Scene) -> Iterator[Problem]:
     shape = scene.shell.shape
     for edge in scene.discretisation.edge_size:
-        if edge not in shape.edges:
+        names = tuple(dict.fromkeys((*shape.edges, *shape.kinks)))
+        if edge not in names:
             path = f"discretisation.edge_size.{edge}"
             kind = f'a shape of kind "{shape.kind}"'
-            yield Problem(path, f"unknown edge: {kind} has {quoted(shape.edges) or 'no edges'}")
+            yield Problem(path, f"unknown edge: {kind} has {quoted(names) or 'no edges'}")
 
 
 def _axisymmetric(check: Check) -> Check:

@@ -51,7 +51,8 @@ class Discretisation(Part):
     """Polynomial order, cure of membrane locking under bending, mesh sizes in m on the shell and far away, and how fast
     sizes may change.
 
-    ``edge_size`` holds smaller sizes along edges of the shape, by their names.
+    ``edge_size`` holds smaller sizes along edges of the shape, by their names; ``sharp`` stands for all edges of a file
+    at which faces meet at more than 30 degrees.
     """
 
     order: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=4))] = 3

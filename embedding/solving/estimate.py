@@ -22,6 +22,7 @@ from embedding.coupling.linear import LinearSolverError
 from embedding.coupling.system import System
 from embedding.geometry.domain import Domain
 from embedding.geometry.ends import unknowns_on
+from embedding.geometry.outline import SHARP_ANGLE
 from embedding.geometry.remeshing import one_order_more
 from embedding.shell.bending import CurveBending
 from embedding.solving.events import StepRecord
@@ -73,16 +74,18 @@ def _held(problem: Problem) -> bool:
 
 
 def _held_estimate(problem: Problem, target: Target) -> ErrorEstimate:
-    """Of the energy, whose error falls as order^-2 where conductors end in rims: then the change from one order to the
-    next is a known part of it. Dielectric and permeable rims are less singular."""
+    """Of the energy. Around an edge at which the normal of a conductor turns by an angle, pi at a rim, the potential
+    goes like r^a, a = pi / (pi + angle), and the error falls as order^(-4 a): the change from one order to the next is
+    a known part of it. Dielectric and permeable edges are less singular."""
     order = problem.domain.sizes.potential_order
     change = _enriched_change(problem, target, "field_energy")
     if change is None:
         return ErrorEstimate(0.0, "field_energy", "discretisation is NOT included", {})
     method = f"the change from order {order} to order {order + 1} of the potential; the thickness is NOT included"
-    if problem.domain.open:
-        change /= 1.0 - (order / (order + 1)) ** 2
-        method = f"at rims, the limit of {method}"
+    angle = math.pi if problem.domain.open else problem.domain.facets.sharpest(problem.domain.normal)
+    if angle > SHARP_ANGLE:
+        change /= 1.0 - (order / (order + 1)) ** (4 * math.pi / (math.pi + angle))
+        method = f"at {'rims' if problem.domain.open else 'sharp edges'}, the limit of {method}"
     return ErrorEstimate(change, "field_energy", method, {"discretisation": change})
 
 

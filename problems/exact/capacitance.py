@@ -34,6 +34,14 @@ def square(side: float, permittivity: float = 1.0) -> float:
     return 0.3667892 * FOUR_PI * permittivity * side
 
 
+def cube(edge: float, permittivity: float = 1.0) -> float:
+    """0.6606782(1) * 4 pi eps a, by random walks (C.-O. Hwang, M. Mascagni, J. Appl. Phys. 95 (2004) 3798).
+
+    No closed form is known: the charge density grows as the power -1/3 of the distance from the edges.
+    """
+    return 0.6606782 * FOUR_PI * permittivity * edge
+
+
 def spherical_cap(radius: float, half_angle: float, permittivity: float = 1.0) -> float:
     """4 eps R (alpha + sin alpha): a bowl that its half angle alpha, seen from the centre, cuts from a sphere.
 

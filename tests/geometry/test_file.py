@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from netgen.occ import ArcOfCircle, Axes, Axis, Compound, Glue, Pnt, Segment, Sphere, Wire, WorkPlane
+from netgen.occ import ArcOfCircle, Axes, Axis, Compound, Cylinder, Glue, Pnt, Segment, Sphere, Wire, WorkPlane, Z
 from ngsolve import CF, InnerProduct, Integrate, dx
 
 from embedding import SceneError, SurfaceFile
@@ -149,3 +149,17 @@ def test_a_free_form_wire_is_refused_as_a_surface(tmp_path: Path) -> None:
         (problem,) = caught.value.problems
         assert problem.path == "path"
         assert problem.message.endswith(f"is not allowed: {reason}")
+
+
+def test_elements_are_small_at_sharp_edges_alone(tmp_path: Path) -> None:
+    """A can whose wall has two seams: the ends are sharp, named or not, and the seams are none."""
+    written = tmp_path / "can.brep"
+    Cylinder(Pnt(0, 0, 0), Z, 10.0, 30.0).WriteBrep(str(written))
+    shape = SurfaceFile(path=str(written))
+    whole = build(shape, Reduction("3d"), MeshSizes(0.3, 0.3, 0.0, 0.3, 2, edges=(("sharp", 0.05),)))
+    assert whole.kinks.sum() == pytest.approx(2 * 2 * math.pi * 10 / (0.05 * 30), rel=0.15)  # two circles of 1.5 mm
+    points = np.array([vertex.point for vertex in whole.mesh.vertices])
+    ends = np.array([[vertex.nr for vertex in whole.mesh.edges[e].vertices] for e in np.flatnonzero(whole.kinks)])
+    assert np.all(np.abs(np.abs(points[ends][..., 2] - 0.5) - 0.5) < 1e-6)
+    halfway = np.abs(points[:, 2] - 0.5) < 0.2
+    assert halfway.sum() < 60

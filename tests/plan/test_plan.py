@@ -118,3 +118,24 @@ def test_narrow_shapes_get_small_elements() -> None:
     sizes = plan(shell={**SPHERE, "shape": ring}, discretisation={"edge_size": {"inner": "1 mm"}}).sizes
     assert sizes.shell == pytest.approx(0.2 * 0.2)  # a curve's default, 0.2 x size, times twice the width
     assert sizes.edges == (("inner", pytest.approx(0.01)),)
+
+
+@pytest.mark.parametrize(
+    ("interface", "faces", "topic", "size"),
+    [
+        ("closed", CHARGED["faces"], "mesh at sharp edges", 0.05 * 0.2),
+        ("auto", CHARGED["faces"], "mesh at sharp edges", 3 * 1e-3 / 0.02),
+        ("closed", {}, None, None),
+    ],
+)
+def test_small_elements_at_the_sharp_edges_of_a_conductor(
+    interface: str, faces: dict[str, Any], topic: str | None, size: float | None
+) -> None:
+    """Where opened faces leave room for them; not around what is no conductor."""
+    can = {**PERMEABLE, "shape": {"kind": "cylinder", "radius": 0.02, "length": 0.05, "ends": "capped"}}
+    field = {"ambient": {"field": "electric" if faces else "magnetic"}, "faces": faces}
+    if not faces:
+        field["ambient"]["applied_field"] = [0.0, 0.0, 1e3]
+    made = plan(shell=can if not faces else {**SPHERE, "shape": can["shape"]}, model={"interface": interface}, **field)
+    assert made.sizes.edges == (() if size is None else tuple((e, pytest.approx(size)) for e in ("end0", "end1")))
+    assert topic is None or topic in {decision.topic for decision in made.decisions}

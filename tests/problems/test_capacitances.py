@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from pathlib import Path
+
 import pytest
 
 from problems import capacitances
@@ -41,6 +44,26 @@ def test_a_square_with_smaller_elements_at_its_edges() -> None:
     assert 0.0 < fine < 4e-3
     assert fine / coarse == pytest.approx(0.5, rel=0.05)
     assert abs(2.0 * fine - coarse) < 3e-4
+
+
+def test_a_cube_with_larger_elements_at_its_edges(tmp_path: Path) -> None:
+    """The potential goes like r^(2/3) there: the error falls at least as the power 4/3 of the elements' size."""
+    cube = capacitances.cube(tmp_path / "cube.brep")
+    changes = [f"discretisation.edge_size={{sharp = {size!r}}}" for size in (0.7 * R, 0.35 * R)]
+    coarse, fine = (capacitances.error(cube, change, "discretisation.order=1") for change in changes)
+    assert 0.0 < fine < 1e-2
+    assert math.log2(coarse / fine) > 4 / 3
+
+
+@pytest.mark.slow
+def test_a_cube_by_default(tmp_path: Path) -> None:
+    """From a file, whose sharp edges are found."""
+    cube = capacitances.cube(tmp_path / "cube.brep")
+    solution = capacitances.run(f"shell.shape={cube.shape}")
+    error = float(solution["charge"][-1] / solution["voltage"][-1] / cube.known - 1.0)
+    assert abs(error) < 1e-3
+    assert solution.error is not None
+    assert 0.5 * abs(error) < solution.error.value < 2.0 * abs(error)
 
 
 @pytest.mark.parametrize("name", ["sphere", "prolate spheroid 2:1", "torus"])

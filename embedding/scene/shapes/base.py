@@ -17,6 +17,8 @@ from embedding.scene.units import Number
 
 Point = tuple[float, float, float]
 TURN = 2 * pi
+SHARP = "sharp"
+"""What the edges of a file at which its faces meet at more than 30 degrees are called together."""
 EVEN = 1e-12
 """How far from even, relative to its angle, a sector may lie and still count as its own mirror image."""
 Angle = Annotated[float, BeforeValidator(Number("angle", "rad", "90 deg", at_least=-TURN, at_most=TURN))]
@@ -36,6 +38,11 @@ class Surface(Part):
     @property
     def faces(self) -> tuple[str, ...]:
         """Names of the faces that regions of the shell may be made of."""
+        return ()
+
+    @property
+    def kinks(self) -> tuple[str, ...]:
+        """Edges along which faces meet at an angle, by name; ``SHARP`` for all such edges of a file."""
         return ()
 
     @property

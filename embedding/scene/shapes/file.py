@@ -13,7 +13,7 @@ from pydantic import model_validator
 
 from embedding.scene.messages import refusal
 from embedding.scene.part import known
-from embedding.scene.shapes.base import Point, Surface
+from embedding.scene.shapes.base import SHARP, Point, Surface
 from embedding.scene.texts import FilePath
 from embedding.scene.units import Length
 
@@ -64,6 +64,11 @@ class SurfaceFile(Surface):
     def edges(self) -> tuple[str, ...]:
         """Names in the file, then the numbered free edges."""
         return tuple(dict.fromkeys(self.content.edge_names))
+
+    @property
+    def kinks(self) -> tuple[str, ...]:
+        """Edges at which faces meet at more than 30 degrees, if there are any, have one name for all."""
+        return (SHARP,) if len(self.content.faces) > 1 else ()
 
     @property
     def faces(self) -> tuple[str, ...]:

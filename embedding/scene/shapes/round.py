@@ -79,6 +79,11 @@ class Cylinder(Revolved):
         return ("end0", "end1", *self.sides)
 
     @property
+    def kinks(self) -> tuple[str, ...]:
+        """The ends, with caps."""
+        return ("end0", "end1") if self.closed else ()
+
+    @property
     def closed(self) -> bool:
         """Only with caps."""
         return self.ends == "capped"
