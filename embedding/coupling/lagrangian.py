@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ngsolve import CF, BilinearForm, GridFunction, InnerProduct, Parameter, Variation
+from ngsolve import CF, BilinearForm, GridFunction, InnerProduct, Integrate, Parameter, Variation
 
 from embedding.ambient.motion import AmbientMotion
 from embedding.coupling.field import FieldEnergies
@@ -161,13 +161,17 @@ class Lagrangian:
             terms.append(self.measure * pairing * self.domain.surface())
         return terms
 
-    def elastic_energy(self, values: dict[str, Any]) -> Any:
-        """Elastic energy of stretching and bending per reference area, times the measure."""
+    def elastic_energy(self, values: dict[str, Any]) -> float:
+        """Elastic energy of stretching and bending in the state of grid functions.
+
+        It is that of the discrete equilibrium, whose strain is interpolated where locking is cured.
+        """
         kinematics = self.kinematics(values)
-        energy = self._membrane_energy(kinematics)
-        if self.unknowns.bending is not None:
-            energy = energy + self.unknowns.bending.stored(values, kinematics, self.factors.mechanical)
-        return self.measure * energy
+        if self.membrane is None or self.unknowns.bending is None:
+            return float(self.domain.shell_integral(self._membrane_energy(kinematics)))
+        stretching = self.measure * self.membrane.energy(kinematics, kinematics) * self.membrane.integral
+        bending = self.unknowns.bending.stored(values, kinematics, self.factors.mechanical)
+        return float(Integrate(stretching, self.domain.mesh)) + float(self.domain.shell_integral(bending))
 
     def _membrane_energy(self, kinematics: Kinematics) -> Any:
         return self.physics.thickness * self.physics.law.energy(kinematics)

@@ -36,8 +36,14 @@ class LoadWork:
 
     @property
     def known(self) -> bool:
-        """Are there loads of this kind, and none that follows an edge, whose work depends on the way?"""
+        """Are there loads of this kind, and none whose work depends on the way?
+
+        It does of forces that follow an edge, and of moments on edges in space: there rotations are measured from step
+        to step.
+        """
         loads = self._lagrangian.physics.loads
+        if loads.edge_moments and self._lagrangian.domain.mesh.dim == 3:
+            return False
         return (self._works or bool(loads.point_forces)) and not loads.turning
 
     def at_full_strength(self) -> float:

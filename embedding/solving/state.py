@@ -168,9 +168,7 @@ class State:
         if self._domain.closed:
             named["volume_ratio"] = self.volume / self._system.lagrangian.reference_volume
         energy = self._scales.stress * self._scales.length**self._lengths
-        named["elastic_energy"] = energy * self._domain.shell_integral(
-            self._system.lagrangian.elastic_energy(self._values) / self._domain.reduction.measure
-        )
+        named["elastic_energy"] = energy * self._system.lagrangian.elastic_energy(self._values)
         if "axial" in self._values:
             named["axial_stretch"] = float(self._values["axial"].vec[0])
         if self._system.load_work.known:
