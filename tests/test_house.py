@@ -11,8 +11,8 @@ import embedding
 
 ROOT = Path(embedding.__file__).parent
 FLOORS = (
-    "errors", "scene", "geometry", "shell", "ambient", "coupling", "plan", "solving", "archive", "view", "fit", "api",
-    "studies", "cli",
+    "errors", "scene", "geometry", "shell", "ambient", "coupling", "plan", "solving", "archive", "post", "view", "fit",
+    "api", "studies", "cli",
 )  # fmt: skip
 FILES = sorted(ROOT.rglob("*.py"))
 
