@@ -14,12 +14,12 @@ from embedding.archive import Archive
 from embedding.post.measure import Measure
 from embedding.post.patches import Patch
 from embedding.post.probe import Source, opened
-from embedding.post.space import Space
 from embedding.post.table import Table
 
 Floats = npt.NDArray[np.float64]
 TOLERANCE = 1e-6
 SAME_LOAD = 1e-9
+NOISE = 1e-12  # of the largest scalar of the same unit
 COLUMNS = ("kind", "name", "unit", "max", "rms", "relative", "step")
 
 
@@ -50,9 +50,9 @@ def compare(first: Source, second: Source, *, tolerance: float = TOLERANCE) -> C
     """Compare two archives step by step and field by field.
 
     Steps are matched by load factors and stage, in the order of the paths; where the second has no step at a load of
-    the first, that one is left out. Fields of blocks are taken at the nodes of the first, at the same places of the undeformed
-    body; on another mesh they are interpolated by its own high-order cells, and the integral mean over the deformed
-    first is their root mean square.
+    the first, that one is left out. Fields are compared at the nodes of the first, at the same places of the undeformed
+    body; those of another mesh are interpolated by its own high-order cells. Their root mean square is that over the
+    deformed first and its steps. A scalar far below the largest of its unit is rounding, and does not count.
 
     Raises:
         PostError: one of them has no step.
@@ -103,10 +103,8 @@ def _matched(one: Archive, other: Archive) -> list[tuple[int, int]]:
     for number, step in enumerate(one.steps):
         for later in range(begin, len(other)):
             candidate = other.steps[later]
-            gap = max(
-                abs(step.factor_mechanical - candidate.factor_mechanical), abs(step.factor_field - candidate.factor_field)
-            )
-            if step.stage == candidate.stage and gap <= SAME_LOAD:
+            apart = step.factor_mechanical - candidate.factor_mechanical, step.factor_field - candidate.factor_field
+            if step.stage == candidate.stage and max(map(abs, apart)) <= SAME_LOAD:
                 pairs.append((number, later))
                 begin = later + 1
                 break
@@ -114,7 +112,10 @@ def _matched(one: Archive, other: Archive) -> list[tuple[int, int]]:
 
 
 def _scalar_rows(one: Archive, other: Archive, pairs: list[tuple[int, int]]) -> list[tuple[Any, ...]]:
-    rows = []
+    rows, units = [], one.scalar_units
+    largest_of: dict[str, float] = {}
+    for name, values in one.scalars.items():
+        largest_of[units[name]] = max(largest_of.get(units[name], 0.0), float(np.nanmax(np.abs(values), initial=0.0)))
     for name, values in one.scalars.items():
         if name not in other.scalars or not pairs or name.startswith("factor_"):
             continue
@@ -124,7 +125,8 @@ def _scalar_rows(one: Archive, other: Archive, pairs: list[tuple[int, int]]) -> 
         where = int(np.nanargmax(gaps)) if not np.isnan(gaps).all() else 0
         rms = float(np.sqrt(np.mean(gaps**2)))
         largest = float(gaps[where])
-        rows.append(("scalar", name, one.scalar_units[name], largest, rms, _relative(largest, size), pairs[where][0] + 1))
+        relative = 0.0 if size < NOISE * largest_of[units[name]] else _relative(largest, size)
+        rows.append(("scalar", name, units[name], largest, rms, relative, pairs[where][0] + 1))
     return rows
 
 

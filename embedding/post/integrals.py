@@ -41,6 +41,8 @@ def integrals(archive: Source, *, steps: Sequence[int] | None = None) -> Table:
       mechanical ones included, N and N m; components that symmetry makes zero are left out;
     * electric: ``charge_top``, ``charge_bottom``, the flux of the flux density out of each face, C; magnetic:
       ``flux_top``, ``flux_bottom``, Wb;
+    * ``capacitance``, ``capacitance_body0`` ..., recorded charge over recorded voltage of each conductor, F; the error
+      of the shell's is how far the charges above are from the recorded one;
     * ``field_energy`` of the space around and inside the shell (not of its material), with what is beyond the mesh of
       free space, J; left out with an applied field, whose own energy is infinite.
 
@@ -62,6 +64,7 @@ def _row(run: Archive, step: int) -> Table:
     parts = {**_of_the_shell(run, step), **_of_the_faces(run, step)}
     if "outside" in run.blocks:
         parts |= _of_the_space(run, step)
+    parts |= _capacitances(run, step, parts)
     columns = {
         "step": np.array([step + 1]),
         "factor_mechanical": np.array([run.steps[step].factor_mechanical]),
@@ -72,9 +75,22 @@ def _row(run: Archive, step: int) -> Table:
     return Table(columns)
 
 
+def _capacitances(run: Archive, step: int, parts: dict[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
+    """Charge over voltage of every conductor that has both; nan at no voltage."""
+    found = {}
+    for voltage in [name for name in run.scalars if name.split("_")[0] == "voltage"]:
+        volts = float(run.scalars[voltage][step])
+        coulombs = float(run.scalars.get(voltage.replace("voltage", "charge", 1), np.full(len(run), math.nan))[step])
+        suffix, off = voltage.removeprefix("voltage"), math.nan
+        if not suffix and {"charge_top", "charge_bottom"} <= parts.keys():
+            off = abs(parts["charge_top"][0] + parts["charge_bottom"][0] - coulombs)
+        found[f"capacitance{suffix}"] = (coulombs / volts, off / abs(volts)) if volts else (math.nan, math.nan)
+    return found
+
+
 def _unit(name: str, plane: bool) -> str:
     stem = name.removesuffix("_error").split("_")[0]
-    units = {"area": ("m^2", "m"), "volume": ("m^3", "m^2"), "flux": ("Wb", "Wb/m")}
+    units = {"area": ("m^2", "m"), "volume": ("m^3", "m^2"), "flux": ("Wb", "Wb/m"), "capacitance": ("F", "F/m")}
     one = {"force": "N", "torque": "N m", "charge": "C", "field": "J"}.get(stem)
     if one is not None:
         return PER_LENGTH[one] if plane else one

@@ -18,7 +18,8 @@ from embedding.post.table import PostError, Table, stacked
 
 Floats = npt.NDArray[np.float64]
 Source = Archive | str | os.PathLike[str]
-OFF = 1e-3  # how far beside the mid-surface, relative to the size of the shell, a point counts as on it
+OFF = 1e-3  # how far beside the mid-surface, relative to the size of the shell, a material point counts as on it
+TOUCHING = 1e-4  # the same of a point in space: closer than a mesh knows where its surface is
 IN_SHELL, IN_BODY, BEYOND = "in the shell", "in a body, or where no field is meshed", "beyond the meshed space"
 BETWEEN, OTHER_SIDE = "on the interface: name the side", "not on this side"
 NOT_ON_SHELL = "not on the shell"
@@ -177,12 +178,12 @@ def _ambient_rows(
     words = np.full(len(places.points), "", dtype=object)
     hits = np.stack([one.hit for one in found.values()])
     shell = Patch.of(run, "shell", step)
-    apart = _distance(shell, places.points, (hits.sum(axis=0) != 1))
+    apart = _distance(shell, places.points, hits.sum(axis=0) != 1)
     half = max(half_thickness(run, shell), OFF * run.scales.length)
     if len(sides) == 1:
         found[sides[0]] = _on_face(patches[sides[0]], places.points, found[sides[0]], apart <= half * (1 + OFF))
         hits = np.stack([found[sides[0]].hit])
-    words[(hits.sum(axis=0) == 2) & (apart <= OFF * run.scales.length)] = BETWEEN
+    words[hits.any(axis=0) & (apart <= TOUCHING * run.scales.length) & (len(sides) > 1)] = BETWEEN
     missed = ~hits.any(axis=0)
     words[missed] = _reasons(run, patches, places.points[missed], apart[missed] <= half)
     values = {name: _empty(patches[sides[0]], name, len(words)) for name in wanted}
@@ -229,10 +230,14 @@ def _shell_rows(
 
 
 def _distance(shell: Patch, points: Floats, asked: npt.NDArray[np.bool_]) -> Floats:
-    """Distance of the points that are ``asked`` for from the deformed mid-surface, infinite for others."""
+    """Distance of points from the deformed mid-surface; infinite where it is not ``asked`` for and not small."""
+    from scipy.spatial import cKDTree
+
     apart = np.full(len(points), np.inf)
-    if asked.any():
-        apart[asked] = shell.find(points[asked]).distance
+    widest = float(np.ptp(shell.corners, axis=1).max())
+    close = np.asarray(cKDTree(shell.nodes).query(points)[0]) <= widest
+    if (asked | close).any():
+        apart[asked | close] = shell.find(points[asked | close]).distance
     return apart
 
 

@@ -1,0 +1,110 @@
+"""The balance of energies closes, to the order of the rule that sums the work, in every kind of scene."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from embedding import Scene, load_scene, solve
+from embedding.post import PostError, Table, energy_balance
+from problems import charged_balloon
+from tests.balloons import SMALL
+from tests.bent import clamped, mesh, metal, scene_of
+
+PROBLEMS = Path(charged_balloon.__file__).parent
+STRIP = scene_of(
+    {"kind": "strip", "length": 10.0}, 0.1, metal(youngs_modulus=1.2e6), supports=clamped("x0"),
+    loads={"edge_tractions": [{"edge": "x1", "traction": [0.0, 4.0, 0.0]}]}, discretisation=mesh(3, 1.0),
+)  # fmt: skip
+PLATE = scene_of(
+    {"kind": "plate", "length": 10.0, "width": 1.0}, 0.1, metal(youngs_modulus=1.2e6), supports=clamped("x0"),
+    loads={"edge_tractions": [{"edge": "x1", "traction": [0.0, 0.0, 4.0]}]}, discretisation=mesh(3, 2.5),
+)  # fmt: skip
+PULLED = scene_of(
+    {"kind": "strip", "length": 1.0}, 0.1, {"law": "neo-hookean", "shear_modulus": 1.0},
+    supports=[*clamped("x0"), {"where": "x1", "fix": ["x"], "displacement": [0.5, 0.0, 0.0]}],
+    discretisation=mesh(3, 0.5),
+)  # fmt: skip
+DISC = Scene.from_toml(
+    """
+name = "disc"
+[shell]
+thickness = "5 mm"
+shape = { kind = "disc", radius = "50 mm" }
+material = { law = "neo-hookean", shear_modulus = "100 kPa" }
+[[supports]]
+where = "rim"
+kind = "clamped"
+[loads]
+pressure_bottom = "2 kPa"
+[discretisation]
+shell_size = "10 mm"
+"""
+)
+
+
+def balanced(scene: Scene, steps: int, folder: Path, stage: int = 0) -> Table:
+    """The balance of a scene that is loaded in so many equal steps, and those of any other stage in twice as few."""
+    changes = [f"path.{stage}.steps={steps}", f'path.{stage}.control="load"']
+    changes += [f"path.{other}.steps={steps // 2}" for other in range(len(scene.path)) if other != stage]
+    path = folder / "run.vtkhdf"
+    solve(scene.with_overrides(changes), archive=path, progress=False)
+    return energy_balance(path)
+
+
+def worst(table: Table, name: str) -> float:
+    """Largest size of a column, relative to the largest stored energy."""
+    return float(np.abs(table[name]).max() / table["stored"].max())
+
+
+SCENES: dict[str, tuple[Any, int, set[str]]] = {
+    "pressure in a balloon": (Scene.from_toml(SMALL), 4, {"work_pressure"}),
+    "pressure on a disc": (DISC, 8, {"work_pressure"}),
+    "a force on a strip": (STRIP, 5, {"work_loads"}),
+    "a force on a plate": (PLATE, 4, {"work_loads"}),
+    "a support that moves": (PULLED, 4, {"work_supports"}),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_balance_closes_as_its_rule(name: str, tmp_path: Path) -> None:
+    """Halved steps: forces taken at the beginning are half as wrong, the trapezoidal rule a quarter, and the terms of
+    first order have vanished from it."""
+    scene, steps, works = SCENES[name]
+    coarse, fine = (balanced(scene, n, tmp_path) for n in (steps, 2 * steps))
+    assert works <= fine.columns.keys()
+    assert worst(coarse, "residual_explicit") / worst(fine, "residual_explicit") == pytest.approx(2.0, abs=0.25)
+    assert worst(coarse, "residual") / worst(fine, "residual") == pytest.approx(4.0, abs=0.9)
+    assert (np.abs(fine["residual"]) <= 1.5 * fine["path_error"] + 1e-6 * fine["stored"].max()).all()
+    assert worst(fine, "residual_cubic") < 0.1 * worst(fine, "residual") + 2e-6
+
+
+def test_a_voltage_on_a_dielectric_balloon(tmp_path: Path) -> None:
+    """Pressure first, then a voltage."""
+    scene = load_scene(PROBLEMS / "dielectric_balloon.toml")
+    tables = [balanced(scene, n, tmp_path, stage=1) for n in (6, 12)]
+    assert {"work_pressure", "work_sources"} <= tables[0].columns.keys()
+    for name, power in (("residual_explicit", 1), ("residual", 2)):
+        sizes = [worst(table, name) for table in tables]
+        assert np.log2(sizes[0] / sizes[1]) == pytest.approx(power, abs=0.25), name
+    assert worst(tables[1], "residual_cubic") < worst(tables[0], "residual_cubic") / 6
+    assert worst(tables[1], "residual_cubic") < 1e-4
+
+
+def test_a_charged_balloon_in_free_space(tmp_path: Path) -> None:
+    """The source gives twice what the field keeps; the balance closes to the error of the path and of the ambient's
+    mesh, which the equilibrium sees."""
+    scene = load_scene(PROBLEMS / "charged_balloon.toml")
+    coarse, fine = (balanced(scene, n, tmp_path) for n in (5, 10))
+    assert worst(coarse, "residual") / worst(fine, "residual") == pytest.approx(4.0, abs=0.4)
+    assert worst(fine, "residual_cubic") < 1e-4
+    assert worst(fine, "residual") < 3e-3
+
+
+def test_what_is_not_recorded_is_said(tmp_path: Path) -> None:
+    solve(load_scene(PROBLEMS / "sphere_in_field.toml", ["path=[{steps=1}]"]), archive=tmp_path / "a.vtkhdf")
+    with pytest.raises(PostError, match="where a field is applied"):
+        energy_balance(tmp_path / "a.vtkhdf")
