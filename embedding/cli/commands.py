@@ -201,15 +201,23 @@ def table(
     *,
     csv: Annotated[Path | None, Parameter(help="Also write the table into this CSV file.")] = None,
     parquet: Annotated[Path | None, Parameter(help="Also write the table into this Parquet file.")] = None,
+    chart: Annotated[Path | None, Parameter(help="Also draw a chart into this PNG file.")] = None,
+    of: Annotated[str | None, Parameter(help="The column to draw.")] = None,
+    over: Annotated[tuple[str, ...], Parameter(negative="", help="Draw it over this column; twice: a map.")] = (),
+    family: Annotated[str | None, Parameter(help="One line for each value of this column.")] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Print the table of a study, as far as it has come, in SI units."""
+    """Print the table of a study, as far as it has come, in SI units; write it, or draw a chart of it."""
     if csv is not None:
         check_output("--csv", csv, ".csv")
     if parquet is not None:
         check_output("--parquet", parquet, ".parquet")
+    if chart is not None:
+        check_output("--chart", chart, ".png")
+        if of is None or not 1 <= len(over) <= 2:
+            raise UsageError("--chart: say --of COLUMN and --over COLUMN, or --over twice for a map")
 
-    from embedding.cli.study import print_table, study_summary
+    from embedding.cli.study import draw_study, print_table, study_summary
     from embedding.studies import open_study
 
     result = open_study(folder)
@@ -217,7 +225,10 @@ def table(
         if path is not None:
             with whole_file(path) as file:
                 write(file)
+    if chart is not None and of is not None:
+        with whole_file(chart) as file:
+            draw_study(result, file, of, over, family)
     if as_json:
-        print_json({**study_summary(result), "csv": csv, "parquet": parquet})
+        print_json({**study_summary(result), "csv": csv, "parquet": parquet, "chart": chart})
     else:
         print_table(result)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
@@ -48,6 +49,22 @@ def print_table(result: StudyResult) -> None:
         table.add_row(str(row + 1), *(_cell(columns[name][row]) for name in shown))
     console().print(table)
     _print_reasons(result.rows)
+
+
+def draw_study(result: StudyResult, path: Path, of: str, over: Sequence[str], family: str | None) -> None:
+    """Draw a column over another one, a line for each value of ``family``; over two others, a map.
+
+    Raises:
+        StudyError: a column does not exist, or has no numbers; or matplotlib is missing.
+    """
+    from embedding.studies.charts import Axis, contours, lines, save
+
+    axes = [Axis(name) for name in (*over, of)]
+    if len(over) == 2:
+        figure = contours(result, *axes)
+    else:
+        figure = lines(result, *axes, family=None if family is None else Axis(family))
+    save(figure, path, "png")
 
 
 def _print_reasons(rows: Sequence[Row]) -> None:

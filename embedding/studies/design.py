@@ -21,11 +21,15 @@ def designed(study: Study) -> list[dict[str, Any]]:
     Raises:
         SceneError: bounds of what is no number in the scene, or that are wrong.
     """
-    names, values = list(study.parameters), list(study.parameters.values())
     if isinstance(study.design, LatinHypercube):
         return _sampled(study, study.design)
-    together = itertools.product(*values) if isinstance(study.design, Grid) else zip(*values, strict=True)
-    return [dict(zip(names, row, strict=True)) for row in together]
+    axes = study.axes if isinstance(study.design, Grid) else (tuple(study.parameters),)
+    columns = [list(zip(*(study.parameters[path] for path in axis), strict=True)) for axis in axes]
+    rows = []
+    for row in itertools.product(*columns):
+        stated = dict(zip(itertools.chain(*axes), itertools.chain(*row), strict=True))
+        rows.append({path: stated[path] for path in study.parameters})
+    return rows
 
 
 def _sampled(study: Study, design: LatinHypercube) -> list[dict[str, Any]]:

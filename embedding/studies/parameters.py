@@ -11,7 +11,7 @@ from pydantic_core import PydanticCustomError
 
 from embedding.scene import Scene
 from embedding.scene.messages import refusal
-from embedding.scene.units import Number
+from embedding.scene.units import ELECTRIC_FIELD, MAGNETIC_FIELD, Number
 
 BOUNDS = frozenset(("low", "high"))
 ALLOWED = 'must be a list of values, such as ["0.5 mm", "1 mm"], or bounds { low = "0.5 mm", high = "2 mm" }'
@@ -81,7 +81,11 @@ def number_at(scene: Scene, path: str) -> Number | None:
             node = node[int(key)]
         else:
             return None
-    return None if isinstance(node, BaseModel) else _number_in(annotation)
+    if isinstance(node, BaseModel):
+        return None
+    if path.startswith("ambient.applied_field.") and isinstance(node, float) and scene.ambient is not None:
+        return ELECTRIC_FIELD if scene.ambient.field == "electric" else MAGNETIC_FIELD  # its type does not say which
+    return _number_in(annotation)
 
 
 def _number_in(annotation: Any) -> Number | None:

@@ -6,7 +6,7 @@ import math
 import os
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -55,6 +55,25 @@ class StudyResult:
         """How many cases ended how."""
         return dict(Counter(row.status for row in self.rows))
 
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """The names of the quantities of every row: those of the study and those added."""
+        return tuple(self.rows[0].quantities) if self.rows else tuple(self.study.quantities)
+
+    def with_quantity(self, name: str, values: Sequence[float], unit: str = "1") -> StudyResult:
+        """The same result with one number more in every row, in SI units: what was computed from rows or archives.
+
+        Raises:
+            ValueError: there are more or fewer values than rows, or a column of that name exists.
+        """
+        if name in self.columns():
+            raise ValueError(f"there is a column {name} already")
+        rows = tuple(
+            replace(row, quantities={**row.quantities, name: float(value)})
+            for row, value in zip(self.rows, values, strict=True)
+        )
+        return replace(self, rows=rows, units={**self.units, name: unit})
+
     def archive(self, number: int) -> Path:
         """The archive of a row; it need not exist if the case failed before its first step."""
         return StudyFolder(self.folder).case(self.rows[number].case).archive
@@ -65,7 +84,7 @@ class StudyResult:
         return {
             "case": [row.case for row in rows],
             **{name: [row.parameters[name] for row in rows] for name in self.study.parameters},
-            **{name: [row.quantities[name] for row in rows] for name in self.study.quantities},
+            **{name: [row.quantities[name] for row in rows] for name in self.quantities},
             "status": [row.status for row in rows],
             "reason": [row.reason for row in rows],
             "seconds": [row.seconds for row in rows],
@@ -96,15 +115,15 @@ class StudyResult:
         import xarray
 
         columns: dict[str, Any] = {name: np.array(values, _dtype(values)) for name, values in self.columns().items()}
-        names = list(self.study.parameters)
         grid = isinstance(self.study.design, Grid)
-        shape = tuple(len(values) for values in self.study.parameters.values()) if grid else (len(self.rows),)
-        dimensions = tuple(names) if grid else ("number",)
-        coordinates: dict[str, Any] = {} if grid else {"number": np.arange(len(self.rows))}
-        for axis, name in enumerate(names):
-            first = tuple(slice(None) if axis == other else 0 for other in range(len(shape)))
-            along = columns.pop(name)
-            coordinates[name] = (name, along.reshape(shape)[first]) if grid else ("number", along)
+        axes = self.study.axes if grid else (("number", *self.study.parameters),)
+        dimensions = tuple(axis[0] for axis in axes)
+        shape = tuple(len(self.study.parameters[axis[0]]) for axis in axes) if grid else (len(self.rows),)
+        columns |= {} if grid else {"number": np.arange(len(self.rows))}
+        coordinates: dict[str, Any] = {}
+        for number, axis in enumerate(axes):
+            first = tuple(slice(None) if number == other else 0 for other in range(len(shape)))
+            coordinates |= {name: (axis[0], columns.pop(name).reshape(shape)[first]) for name in axis}
         data = {name: (dimensions, values.reshape(shape)) for name, values in columns.items()}
         dataset = xarray.Dataset(data, coordinates, {"study": self.study.name, "scene": self.study.scene.to_toml()})
         for name, unit in self.units.items():

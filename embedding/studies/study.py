@@ -35,9 +35,13 @@ class BaseScene:
 
 
 class Grid(Part):
-    """Every combination of the parameters' values; the last parameter varies fastest."""
+    """Every combination of the parameters' values; the last parameter varies fastest.
+
+    The paths of a list in ``together`` are one parameter: they take their first values together, then the second ones.
+    """
 
     kind: Literal["grid"] = "grid"
+    together: tuple[tuple[str, ...], ...] = ()
 
 
 class Rows(Part):
@@ -113,5 +117,29 @@ class Study(Part):
             if isinstance(self.design, Rows) and len(values) != len(first):
                 reason = f"there are {len(values)} values, and {len(first)} of the first parameter; rows need as many"
                 raise refusal(reason, field=field, value=values)
+        if isinstance(self.design, Grid):
+            self._together(self.design)
         return self
+
+    def _together(self, design: Grid) -> None:
+        """Refuse groups of parameters that cannot go together."""
+        met: set[str] = set()
+        for group in design.together:
+            for path in group:
+                if path not in self.parameters:
+                    raise refusal(f"{path} is no parameter of the study", field="design.together", value=group)
+                if path in met:
+                    raise refusal(f"{path} is named twice", field="design.together", value=group)
+                met.add(path)
+                if len(self.parameters[path]) != len(self.parameters[group[0]]):
+                    counts = f"{len(self.parameters[path])} values, and {len(self.parameters[group[0]])} of {group[0]}"
+                    reason = f"there are {counts}; what goes together needs as many"
+                    raise refusal(reason, field=f"parameters.{path}", value=self.parameters[path])
+
+    @property
+    def axes(self) -> tuple[tuple[str, ...], ...]:
+        """The parameters of a grid by axis: those that go together are one, at the place of the first of them."""
+        groups = self.design.together if isinstance(self.design, Grid) else ()
+        home = {path: group for group in groups for path in group}
+        return tuple(dict.fromkeys(home.get(path, (path,)) for path in self.parameters))
 

@@ -58,6 +58,15 @@ def test_a_study_and_its_table(study_file: Path, call: Call) -> None:
     assert list(table["loads.pressure_bottom [Pa]"]) == [500.0, 2000.0]
     assert list(pandas.read_parquet("two.parquet")["loads.pressure_bottom"]) == [500.0, 2000.0]
 
+    pressure = ("--over", "loads.pressure_bottom")
+    outcome = call("table", "two", "--chart", "two.png", "--of", "reached", *pressure)
+    assert outcome.code == 0
+    assert Path("two.png").read_bytes().startswith(b"\x89PNG")
+    outcome = call("table", "two", "--chart", "three.png", "--of", "strech", *pressure)
+    assert outcome.code == 2
+    assert outcome.err.startswith("error: strech: the table has no numbers of that name; it has ")
+    assert not Path("three.png").exists()
+
     report = json.loads(call("table", "two", "--json").out)
     assert report["counts"] == {"done": 1, "diverged": 1}
     assert report["units"]["reached"] == "Pa"
@@ -89,6 +98,10 @@ def test_an_interrupt_ends_the_cases_and_is_130(study_file: Path) -> None:
         (("study", "two.toml", "--workers", 0), "error: --workers: 0 is not allowed: must be at least 1\n"),
         (("table", "two.toml"), "not the folder of a study: there is no study.toml in it\n"),
         (("table", ".", "--csv", "two.txt"), "error: --csv: 'two.txt' must end in '.csv'\n"),
+        (
+            ("table", ".", "--chart", "two.png", "--of", "stretch"),
+            "error: --chart: say --of COLUMN and --over COLUMN, or --over twice for a map\n",
+        ),
         (("table", ".", "--parquet", "two"), "error: --parquet: 'two' must end in '.parquet'\n"),
     ],
 )

@@ -62,6 +62,16 @@ def test_dataset_of_a_grid(tmp_path: Path) -> None:
     assert {name: dataset[name].attrs["units"] for name in UNITS} == UNITS
 
 
+def test_dataset_of_parameters_that_go_together(tmp_path: Path) -> None:
+    """One dimension, named by the first of the group, with a coordinate for each."""
+    design = {"kind": "grid", "together": [[PRESSURE, "path.0.steps"]]}
+    values = {THICKNESS: ["0.2 mm", "0.4 mm"], PRESSURE: [500, 600, 700], "path.0.steps": [1, 2, 3]}
+    dataset = told(study(values, design=design), tmp_path).dataset()
+    assert dict(dataset.sizes) == {THICKNESS: 2, PRESSURE: 3}
+    assert dataset["path.0.steps"].dims == (PRESSURE,)
+    assert float(dataset["stretch"].sel({THICKNESS: 4e-4, PRESSURE: 700.0}).item()) == 6.0
+
+
 def test_dataset_of_samples(tmp_path: Path) -> None:
     bounds = {THICKNESS: {"low": "0.2 mm", "high": "0.4 mm"}}
     result = told(study(bounds, design=LatinHypercube(samples=4)), tmp_path)

@@ -60,6 +60,26 @@ def test_rows_go_together() -> None:
     assert [list(case.values.values()) for case in cases_of(found)] == [[2e-4, 500.0], [3e-4, 600.0]]
 
 
+def test_parameters_that_go_together() -> None:
+    """They are one axis of the grid, at the place of the first of them."""
+    values = {"path.0.steps": [2, 3], THICKNESS: ["0.2 mm", "0.3 mm"], PRESSURE: [500, 600]}
+    found = study(values, design={"kind": "grid", "together": [[PRESSURE, "path.0.steps"]]})
+    assert found.axes == ((PRESSURE, "path.0.steps"), (THICKNESS,))
+    rows = [case.values for case in cases_of(found)]
+    assert [[row[PRESSURE], row["path.0.steps"], row[THICKNESS]] for row in rows] == [
+        [500.0, 2.0, 2e-4], [500.0, 2.0, 3e-4], [600.0, 3.0, 2e-4], [600.0, 3.0, 3e-4],
+    ]  # fmt: skip
+    assert list(rows[0]) == list(values)
+
+
+def test_an_applied_field_has_a_unit() -> None:
+    magnetic = {"field": "magnetic", "applied_field": [0, 0, 1]}
+    scene = balloon().model_dump(mode="json", exclude_none=True) | {"ambient": magnetic}
+    scene["shell"]["relative_permeability"] = 2.0
+    (case,) = cases_of(study({"ambient.applied_field.2": ["2 kA/m"]}, scene=scene))
+    assert case.values == {"ambient.applied_field.2": 2000.0}
+
+
 def test_tables_lists_and_words_are_values_too() -> None:
     laws = [{"law": "neo-hookean", "shear_modulus": "30 kPa"}, {"law": "gent", "shear_modulus": 3e4, "limit": 60}]
     found = study({"shell.material": laws, "path.0.steps": [2, 3], "model.theory": ["membrane"]})
@@ -153,6 +173,13 @@ WRONG = {
     'design.kind = "latin-hypercube"': "map.toml: design.samples: missing: must be a whole number of at least 1 and at most 1e+06",
     'design = { kind = "rows" }': "map.toml: parameters.loads.pressure_bottom: [1 kPa, 500, 2e3 Pa] is not allowed: "
     "there are 3 values, and 2 of the first parameter; rows need as many",
+    'design = { kind = "grid", together = [["shell.thickness", "shell.thicknes"]] }': "map.toml: design.together: "
+    "[shell.thickness, shell.thicknes] is not allowed: shell.thicknes is no parameter of the study",
+    'design = { kind = "grid", together = [["shell.thickness", "shell.thickness"]] }': "map.toml: design.together: "
+    "[shell.thickness, shell.thickness] is not allowed: shell.thickness is named twice",
+    'design = { kind = "grid", together = [["shell.thickness", "loads.pressure_bottom"]] }': "map.toml: "
+    "parameters.loads.pressure_bottom: [1 kPa, 500, 2e3 Pa] is not allowed: there are 3 values, and 2 of shell.thickness; "
+    "what goes together needs as many",
     'parameters."shell.thickness" = "1 mm"': "map.toml: parameters.shell.thickness: 1 mm is not allowed: must be a list of values, "
     'such as ["0.5 mm", "1 mm"], or bounds { low = "0.5 mm", high = "2 mm" }',
     'parameters."shell.thickness" = { low = 1 }': "map.toml: parameters.shell.thickness: a table is not allowed: must be a list of values, "
