@@ -95,6 +95,7 @@ class State:
         scales, k = self._scales, self.mid_surface
         top, bottom = self.face_pressures()
         major, minor = self.principal_stretches
+        squeezed = self._system.physics.law.thickness_stretch(k)
         out = [
             Field("shell", "u", "m", scales.length * CF(self._values["u"])),
             Field("shell", "p_t", "Pa", scales.stress * top),
@@ -102,7 +103,8 @@ class State:
             Field("shell", "stretch", "1", sqrt(k.surface_stretch)),
             Field("shell", "stretch_major", "1", major),
             Field("shell", "stretch_minor", "1", minor),
-            Field("shell", "thickness_stretch", "1", self._system.physics.law.thickness_stretch(k)),
+            Field("shell", "thickness_stretch", "1", squeezed),
+            Field("shell", "thickness", "m", scales.length * self._system.physics.thickness * squeezed),
             Field("shell", "normal", "1", k.normal),
         ]
         if self._unknowns.bending is not None:
@@ -133,11 +135,14 @@ class State:
         if self._field.lifts(side, self._values):
             potential = potential + self._values["jump"]
         electric = self.problem.scene.ambient is None or self.problem.scene.ambient.field == "electric"
-        name, units = ("E", ("V", "V/m")) if electric else ("H", ("A", "A/m"))
+        names, units = (("E", "D"), ("V", "V/m", "C/m^2")) if electric else (("H", "B"), ("A", "A/m", "T"))
+        flux_density = self._field.field.liquids.get(side, 1.0) * strength
         return [
             Field(side, "u", "m", scales.length * (motion + w)),
             Field(side, "phi", units[0], scales.potential * potential),
-            Field(side, name, units[1], scales.field * strength),
+            Field(side, names[0], units[1], scales.field * strength),
+            Field(side, names[1], units[2], scales.flux_density * flux_density),
+            Field(side, "energy_density", "J/m^3", scales.stress * 0.5 * InnerProduct(strength, flux_density)),
         ]
 
     @property

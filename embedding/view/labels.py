@@ -17,6 +17,9 @@ NAMES = {
     "u": "displacement $|u|$",
     "E": "electric field $|E|$",
     "H": "magnetic field $|H|$",
+    "D": "flux density $|D|$",
+    "B": "flux density $|B|$",
+    "energy_density": "field energy density",
     "phi": r"potential $\varphi$",
 }
 
