@@ -10,8 +10,8 @@ import os
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from embedding.api import solve
-    from embedding.archive import open_archive
+    from embedding.api import resume, solve
+    from embedding.archive import open_archive, verify
     from embedding.errors import ArchiveError, EmbeddingError, SceneError, SolveError
     from embedding.plan import explain
     from embedding.scene import (
@@ -76,8 +76,8 @@ __version__ = "0.1.0"
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 _HOMES = {
-    "embedding.api": ("solve",),
-    "embedding.archive": ("open_archive",),
+    "embedding.api": ("resume", "solve"),
+    "embedding.archive": ("open_archive", "verify"),
     "embedding.errors": ("ArchiveError", "EmbeddingError", "SceneError", "SolveError"),
     "embedding.plan": ("explain",),
     "embedding.scene": (
@@ -155,7 +155,9 @@ __all__ = [
     "explain",
     "load_scene",
     "open_archive",
+    "resume",
     "solve",
+    "verify",
 ]
 
 

@@ -1,20 +1,30 @@
-"""The library's front door: solve a scene, with an archive and a progress display if wanted."""
+"""The library's front door: solve a scene, with an archive and a progress display if wanted; go on with a run."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
-from embedding.errors import SolveError
+from embedding.errors import ArchiveError, SolveError
 from embedding.scene import Scene
 from embedding.solving import Listener, Solution, run
+from embedding.solving.result import Result
+
+if TYPE_CHECKING:
+    from embedding.archive import Recorder
+    from embedding.solving.memory import Kept
+
+Name = str | os.PathLike[str]
 
 
 def solve(
     scene: Scene,
     *,
-    archive: str | os.PathLike[str] | None = None,
+    archive: Name | None = None,
+    resume: Name | None = None,
     throw: bool = True,
     progress: bool = False,
     listeners: Sequence[Listener] = (),
@@ -22,30 +32,75 @@ def solve(
     """Solve ``scene`` along its path.
 
     With ``archive`` every accepted step is written to that HDF5 file as it is found; with ``progress`` a display on
-    standard error shows load, Newton history and time. ``listeners`` are told of everything besides.
+    standard error shows load, Newton history and time. ``listeners`` are told of everything besides. With ``resume``,
+    an archive of this very scene whose run ended early, go on with that run; see :func:`resume`.
 
     Raises:
         SceneError: the scene cannot be modelled.
+        ArchiveError: the archive cannot be written, or not be resumed: it is damaged, of another scene, or its run is
+            finished.
         SolveError: the path was not solved to its end; its ``solution`` holds the accepted steps, the reason and
             advice. With ``throw=False`` that solution is returned instead.
     """
-    from contextlib import ExitStack
+    recorder, known = None, None
+    if resume is not None:
+        if archive is not None and os.path.abspath(archive) != os.path.abspath(resume):
+            raise ArchiveError(f"{resume}: a run goes on in its own archive, not in {archive}")
+        recorder, known = _resumed(resume, scene)
+    elif archive is not None:
+        from embedding.archive import Recorder
 
+        recorder = Recorder(archive)
+    return _solved(scene, recorder, known, throw=throw, progress=progress, listeners=listeners)
+
+
+def resume(
+    archive: Name, *, throw: bool = True, progress: bool = False, listeners: Sequence[Listener] = ()
+) -> Solution:
+    """Go on with the run in ``archive``, which was killed, interrupted or failed, from its last accepted step.
+
+    The scene is that in the archive, where the steps to come are written as well. On the same machine, with the same
+    versions of packages and threads, everything comes out as it would have without the interruption, to the last bit;
+    with other versions a warning says that it will not. Errors are those of :func:`solve`.
+    """
+    from embedding.archive import open_archive
+
+    scene = open_archive(archive).scene_object()
+    recorder, known = _resumed(archive, scene)
+    return _solved(scene, recorder, known, throw=throw, progress=progress, listeners=listeners)
+
+
+def _resumed(path: Name, scene: Scene) -> tuple[Recorder, Kept]:
+    from embedding.archive import Recorder
+    from embedding.archive.resuming import kept, resumable
+
+    archive = resumable(path)
+    if archive.scene_object() != scene:
+        raise ArchiveError(f"{path}: is the archive of another scene: only the run of the same scene can go on")
+    return Recorder.going_on(archive), kept(archive, scene)
+
+
+def _solved(
+    scene: Scene,
+    recorder: Recorder | None,
+    known: Kept | None,
+    *,
+    throw: bool,
+    progress: bool,
+    listeners: Sequence[Listener],
+) -> Solution:
     with ExitStack() as stack:
-        watching: list[Listener] = []
-        recorder = None
-        if archive is not None:
-            from embedding.archive import Recorder
-
-            recorder = Recorder(archive)
-            watching.append(recorder)
+        watching: list[Listener] = [] if recorder is None else [recorder]
         if progress:
             from embedding.view.progress import ProgressDisplay
 
             watching.append(stack.enter_context(ProgressDisplay()))
-        solution = run(scene, [*watching, *listeners])
+        solution = run(scene, [*watching, *listeners], known)
     if recorder is not None:
         solution = replace(solution, archive=recorder.path)
+        if solution.result is Result.INTERRUPTED and solution.steps:
+            hint = f"Go on with: embedding resume {recorder.path}"
+            solution = replace(solution, message=f"{solution.message}. {hint}")
     if throw and not solution.result.ok:
         raise SolveError(solution.message, solution)
     return solution

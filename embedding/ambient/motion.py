@@ -71,7 +71,7 @@ class AmbientMotion:
         self.rest = {side: _rest(domain, y) for side, y in self.y.items()}
         self.w = GridFunction(interior)
         self._settled = np.zeros(self._face().size)
-        self._assembled_at = self._settled.copy()
+        self._assembled_at, self._assembled_with = self._settled.copy(), np.zeros(interior.ndof)
         self._inverse: Any = None
         self._noticeable = NOTICEABLE * domain.sizes.shell
         trial = interior.TrialFunction()
@@ -110,6 +110,32 @@ class AmbientMotion:
     def vectors(self) -> list[Any]:
         """The vectors that make up the state of the motion: faces, interior, and where the faces were last settled."""
         return [*(y.vec.FV().NumPy() for y in self.y.values()), self.w.vec.FV().NumPy(), self._settled]
+
+    def save(self) -> Array:
+        """All of :meth:`vectors` in one, for :meth:`restore`."""
+        return np.concatenate(self.vectors())
+
+    def restore(self, saved: Array) -> None:
+        """Go back to what :meth:`save` returned."""
+        vectors = self.vectors()
+        self._restore(np.split(saved, np.cumsum([vector.size for vector in vectors])[:-1]))
+
+    def memory(self) -> Array | None:
+        """Faces and interior at which the matrix at hand was assembled, in one vector; None if there is none yet. The
+        next motion starts from that matrix, so it belongs to what a run goes on from."""
+        known = self._inverse is not None
+        return np.concatenate([self._assembled_at, self._assembled_with]) if known else None
+
+    def recall(self, memory: Array | None) -> None:
+        """Have the matrix again that had this :meth:`memory`; the present motion is left as it is."""
+        if memory is None:
+            return
+        present = self.save()
+        faces, interior = np.split(memory, [self._assembled_at.size])
+        self._place(faces)
+        self.w.vec.FV().NumPy()[:] = interior
+        self._assemble(faces)
+        self.restore(present)
 
     def continue_from(self, other: AmbientMotion, faces: Mapping[str, Array]) -> None:
         """Take over the interior that ``other``, on the same mesh, has around ``faces``, displacements by side."""
@@ -178,7 +204,7 @@ class AmbientMotion:
     def _assemble(self, faces: Array) -> None:
         self._form.AssembleLinearization(self.w.vec)
         self._inverse = self._inverter(self._form.mat)
-        self._assembled_at = faces.copy()
+        self._assembled_at, self._assembled_with = faces.copy(), np.array(self.w.vec.FV().NumPy())
 
     def _predict(self, faces: Array) -> bool:
         """Move the faces, and the interior by - K_ww^{-1} K_wy dy; the product by a difference quotient."""

@@ -13,7 +13,7 @@ import h5py
 
 from embedding.archive.layout import SCHEMA
 from embedding.archive.views import viewed_archive
-from embedding.errors import ArchiveError
+from embedding.errors import ArchiveError, EmbeddingError
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 PATIENCE, PAUSE, ATTEMPTS = 0.5, 0.02, 200  # s: a live run closes its file soon after it last wrote to it
@@ -30,20 +30,24 @@ def reading(path: Path) -> Iterator[Any]:
     Raises ArchiveError, naming ``path`` and what is wrong with it: missing, a folder, not HDF5, truncated,
     damaged, not written by this package, or written by a newer version of it.
     """
-    _check_signature(path)
+    check_signature(path)
     with ExitStack() as stack:
         try:
-            file = stack.enter_context(_opened(path, stack))
+            file = stack.enter_context(opened_for_reading(path, stack))
         except OSError as error:
             raise ArchiveError(f"{path}: {_reason(error)}") from error
-        _check_origin(path, file)
         try:
+            check_origin(path, file)
             yield file
-        except (OSError, RuntimeError, KeyError, ValueError) as error:
+        except EmbeddingError:
+            raise
+        except Exception as error:  # where bytes are wrong, HDF5 and h5py fail in many ways
             raise ArchiveError(f"{path}: the archive is damaged: {error}") from error
 
 
-def _opened(path: Path, stack: ExitStack) -> Any:
+def opened_for_reading(path: Path, stack: ExitStack) -> Any:
+    """The HDF5 file at ``path``, whether or not it is marked as open for writing; ``stack`` closes what is below it.
+    Raises OSError."""
     for _ in range(ATTEMPTS):
         try:
             return h5py.File(path, "r", locking=False)
@@ -56,7 +60,8 @@ def _opened(path: Path, stack: ExitStack) -> Any:
     return h5py.File(stack.enter_context(path.open("rb")), "r")
 
 
-def _check_signature(path: Path) -> None:
+def check_signature(path: Path) -> None:
+    """Raises ArchiveError if the file is missing, or not HDF5."""
     if path.is_dir():
         raise ArchiveError(f"{path}: is a folder, not an archive")
     try:
@@ -70,7 +75,8 @@ def _check_signature(path: Path) -> None:
         raise ArchiveError(f"{path}: {'is not an HDF5 file, so not an archive' if signature else 'is empty'}")
 
 
-def _check_origin(path: Path, file: Any) -> None:
+def check_origin(path: Path, file: Any) -> None:
+    """Raises ArchiveError if the HDF5 file is not an archive of this version."""
     record = file.get("embedding")
     if record is None or "schema" not in record.attrs:
         archive = viewed_archive(path)

@@ -9,11 +9,13 @@
             FieldData/<scalar>     links to the scalars below
             Steps                  NSteps, Values (step numbers), and where each step's rows begin
     /embedding                     what reproduces and explains the run
-        committed                  number of steps that count; everything behind them is to be ignored
+        committed                  number of steps that count (and its complement); everything behind is to be ignored
         scene, plan, scales, versions, run     documents: TOML, or JSON
-        steps/, scalars/           one row a step
+        digest                     of the documents, meshes, units and origins
+        steps/, scalars/           one row a step; steps/rows_digest and fields_digest are of what the step wrote
         newton/                    one row a Newton iteration; steps/newton_end says where a step's rows end
-        checkpoint/even, odd       degree-of-freedom vectors of the last accepted step, in alternating slots
+        checkpoint/even, odd       what a run goes on from after the last accepted step, in alternating slots
+        origins/1, 2, ...          the state that each mesh after the first was made around
         finish/                    JSON of result, cost and error; ``length`` is 0 until the run has ended
 
 Rules that make it survive a kill at any moment (``writer.py`` keeps them): rows of a field start at a chunk
@@ -24,6 +26,7 @@ file, which then takes its place.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -32,9 +35,10 @@ import numpy as np
 import numpy.typing as npt
 
 from embedding.archive.lagrange import LagrangeBlock
+from embedding.archive.memory import packed
 from embedding.archive.units import scalar_unit
 
-SCHEMA = 2
+SCHEMA = 3
 LIBVER = ("v110", "v110")  # chunk indices of this format grow without being rewritten
 VTKHDF_VERSION = (2, 2)
 FIELD_CHUNK = 1 << 16  # rows at most in one chunk of a field
@@ -48,6 +52,8 @@ STEP_COLUMNS = {
     "factor_mechanical": ("f8", "1"),
     "factor_field": ("f8", "1"),
 }
+DIGESTS = ("rows_digest", "fields_digest")
+DIGEST_SIZE = 32
 NEWTON_COLUMNS = {
     "number": ("i8", "1"),
     "update": ("f8", "1"),
@@ -87,6 +93,15 @@ def growable(
     return dataset
 
 
+def to_disk(path: str | os.PathLike[str]) -> None:
+    """Wait until a file or folder, as it is now, has reached the disk."""
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
 def put(dataset: Any, start: int, rows: Any) -> None:
     """Write ``rows`` from row ``start`` on, over whatever an unfinished step may have left there."""
     dataset.resize(max(start + len(rows), len(dataset)), axis=0)
@@ -121,18 +136,36 @@ def create_record(file: Any, documents: Mapping[str, str], run: str) -> Any:
     record = file.create_group("embedding")
     record.attrs["schema"] = SCHEMA
     record.attrs["run"] = run
-    record["committed"] = np.zeros(1, "i8")
+    record["committed"] = counted(0)
+    record["digest"] = np.zeros(DIGEST_SIZE, "u1")
+    record.create_group("origins")
     for name, text in documents.items():
         record[name] = text
     for table, columns in (("steps", STEP_COLUMNS), ("newton", NEWTON_COLUMNS)):
         group = record.create_group(table)
         for name, (dtype, unit) in columns.items():
             growable(group, name, dtype, unit)
+    for name in DIGESTS:
+        growable(record["steps"], name, "u1", "1", shape=(DIGEST_SIZE,))
     record.create_group("scalars")
     finish = record.create_group("finish")
     growable(finish, "json", "u1", "1", chunk=4096)
-    finish["length"] = np.zeros(1, "i8")
+    finish["length"] = counted(0)
+    finish["digest"] = np.zeros(DIGEST_SIZE, "u1")
     return record
+
+
+def counted(count: int) -> npt.NDArray[np.int64]:
+    """How a count that decides over everything else is stored: with its complement, lest one flipped bit changes it."""
+    return np.array([count, ~count], "i8")
+
+
+def count_of(dataset: Any) -> int:
+    """The count in a dataset that holds :func:`counted`. Raises ValueError if it is damaged."""
+    count, complement = (int(number) for number in dataset[:2])
+    if count < 0 or complement != ~count:
+        raise ValueError(f"{dataset.name} is damaged")
+    return count
 
 
 def create_scalars(record: Any, names: Sequence[str], per_length: bool) -> None:
@@ -141,16 +174,26 @@ def create_scalars(record: Any, names: Sequence[str], per_length: bool) -> None:
         growable(record["scalars"], name, "f8", scalar_unit(name, per_length), shape=(1,))
 
 
-def create_checkpoint(record: Any, vectors: Mapping[str, npt.NDArray[Any]]) -> None:
-    """Two slots for the degree-of-freedom vectors: one holds the last accepted step while the other is
-    written."""
+def create_checkpoint(record: Any, numbers: int) -> None:
+    """Two slots for what a run goes on from, of about so many ``numbers``: one holds the last accepted step while the
+    other is written."""
+    chunk = min(max(numbers, 128), FIELD_CHUNK)
     for slot in SLOTS:
         group = record.create_group(f"checkpoint/{slot}")
-        for name, vector in vectors.items():
-            shape = np.shape(vector)
-            filters = {"fletcher32": True, "chunks": True} if np.size(vector) else {}
-            data = np.zeros(shape, np.asarray(vector).dtype)
-            group.create_dataset(name, data=data, **filters).attrs["unit"] = "1"
+        growable(group, "text", "u1", "1", chunk=4096)
+        growable(group, "numbers", "f8", "1", chunk=chunk)
+        group["extent"] = np.zeros(3, "i8")  # the step, bytes of text, numbers
+        group["digest"] = np.zeros(DIGEST_SIZE, "u1")
+
+
+def add_origin(record: Any, memory: Any) -> None:
+    """Keep the state that the next mesh is made around."""
+    text, numbers = packed(memory)
+    group = record["origins"].create_group(str(len(record["origins"]) + 1))
+    group["text"] = np.frombuffer(text.encode(), "u1")
+    group["numbers"] = numbers
+    for name in ("text", "numbers"):
+        group[name].attrs["unit"] = "1"
 
 
 def create_blocks(file: Any, blocks: Mapping[str, LagrangeBlock]) -> None:

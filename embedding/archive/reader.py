@@ -11,8 +11,10 @@ from typing import Any, cast
 import numpy as np
 import numpy.typing as npt
 
+from embedding.archive.digests import damaged_rows, digest_of, record_digest, slot_digest
 from embedding.archive.file import reading
-from embedding.archive.layout import NEWTON_COLUMNS, PLACES, SLOTS, mesh_of, table
+from embedding.archive.layout import NEWTON_COLUMNS, PLACES, SLOTS, STEP_COLUMNS, count_of, mesh_of, table
+from embedding.archive.memory import unpacked
 from embedding.archive.records import (
     UNFINISHED,
     ArchivedCost,
@@ -22,6 +24,7 @@ from embedding.archive.records import (
     ArchivedResult,
     Newton,
 )
+from embedding.archive.verification import verify
 from embedding.errors import ArchiveError
 from embedding.scene import Scales, Scene
 from embedding.solving.events import Iteration, StepRecord
@@ -64,11 +67,13 @@ class Archive:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._committed = 0
+        self._rows_hold = self._record_holds = False
 
     def refresh(self) -> int:
         """Look for steps committed since the archive was opened; returns how many there are now."""
         with reading(self.path) as file:
-            self._committed = int(file["embedding/committed"][0])
+            self._committed = count_of(file["embedding/committed"])
+        self._rows_hold = False
         for name in ("steps", "scalars", "_end"):
             self.__dict__.pop(name, None)
         return self._committed
@@ -141,8 +146,10 @@ class Archive:
     @cached_property
     def steps(self) -> tuple[StepRecord, ...]:
         """The records of all committed steps, as the solver gave them."""
+        self._check_rows()
         with reading(self.path) as file:
-            table = {name: column[: self._committed] for name, column in file["embedding/steps"].items()}
+            group = file["embedding/steps"]
+            table = {name: group[name][: self._committed] for name in STEP_COLUMNS}
             ends = table.pop("newton_end").tolist()
             rows = ends[-1] if ends else 0
             newton = [file["embedding/newton"][name][:rows].tolist() for name in NEWTON_COLUMNS]
@@ -163,6 +170,7 @@ class Archive:
     def scalars(self) -> dict[str, Floats]:
         """Every scalar over the steps, in SI units, and the load factors ``factor_mechanical`` and
         ``factor_field``."""
+        self._check_rows()
         with reading(self.path) as file:
             group = file["embedding/scalars"]
             return {name: column[: self._committed, 0] for name, column in group.items()}
@@ -179,14 +187,26 @@ class Archive:
         columns = {name: np.array([getattr(row, name) for row in rows]) for name in NEWTON_COLUMNS}
         return Newton(**columns)
 
-    def checkpoint(self, step: int = -1) -> dict[str, npt.NDArray[Any]]:
-        """Degree-of-freedom vectors of the last committed step, by name; no other step keeps them."""
+    def checkpoint(self, step: int = -1) -> dict[str, Any]:
+        """What a run goes on from after the last committed step; no other step keeps it. A table of numbers, texts,
+        lists, tables and arrays: ``["system"]["unknowns"]`` are the degrees of freedom, ``["system"]["ranges"]`` says
+        which are whose."""
         last = len(self) - 1
         if self.index(step) != last:
             raise ArchiveError(f"{self.path}: only the last step ({last}) has a checkpoint, not step {step}")
         with reading(self.path) as file:
-            slot = file["embedding/checkpoint"].get(SLOTS[len(self) % 2], {})
-            return {name: vector[...] for name, vector in slot.items()}
+            slot = file["embedding/checkpoint"][SLOTS[len(self) % 2]]
+            number, text, numbers = slot["extent"][...].tolist()
+            if number != len(self) or not np.array_equal(slot_digest(slot), slot["digest"][...]):
+                raise ArchiveError(f"{self.path}: the archive is damaged: the checkpoint of step {len(self)}")
+            return cast(dict[str, Any], unpacked(slot["text"][:text].tobytes().decode(), slot["numbers"][:numbers]))
+
+    def origins(self) -> list[dict[str, Any]]:
+        """The states around which the space was meshed anew, in their order, as tables like :meth:`checkpoint`."""
+        self._check_record()
+        with reading(self.path) as file:
+            groups = [file["embedding/origins"][str(k + 1)] for k in range(len(file["embedding/origins"]))]
+            return [unpacked(one["text"][...].tobytes().decode(), one["numbers"][...]) for one in groups]
 
     @cached_property
     def blocks(self) -> tuple[str, ...]:
@@ -202,17 +222,32 @@ class Archive:
         return ArchivedBlock(self, name, self.index(step) if len(self) else None)
 
     def verify(self) -> None:
-        """Read everything that counts, so that every checksum is compared. Raises ArchiveError at the first
-        damage."""
-        if len(self.steps):
-            self.checkpoint()
-        for name in self.blocks:
-            for number in range(len(self)) or [-1]:
-                block = self.block(name, number)
-                if block.points.shape[0] <= int(block.cells.max(initial=-1)):
-                    raise ArchiveError(f"{self.path}: the cells of block {name!r} name nodes that do not exist")
-                for field in block.fields:
-                    block.field(field, number)
+        """Compare everything that counts with its checksums. Raises ArchiveError naming what is damaged, and what can
+        be saved; see :func:`embedding.archive.verify` for a report."""
+        found = verify(self.path)
+        if not found.sound:
+            raise ArchiveError(found.message)
+
+    def _check_rows(self) -> None:
+        """Compare the rows of all steps with their digests, once. Raises ArchiveError."""
+        if self._rows_hold:
+            return
+        with reading(self.path) as file:
+            damaged = damaged_rows(file["embedding"], self._committed)
+        if damaged:
+            listed = ", ".join(map(str, damaged))
+            raise ArchiveError(f"{self.path}: the archive is damaged: rows of step {listed}; see embedding verify")
+        self._rows_hold = True
+
+    def _check_record(self) -> None:
+        """Compare documents and meshes with their digest, once. Raises ArchiveError."""
+        if self._record_holds:
+            return
+        with reading(self.path) as file:
+            holds = np.array_equal(record_digest(file), file["embedding/digest"][...])
+        if not holds:
+            raise ArchiveError(f"{self.path}: the archive is damaged: its documents or meshes; see embedding verify")
+        self._record_holds = True
 
     def index(self, step: int) -> int:
         """``step`` as a number from 0 on. Raises ArchiveError if there is no such step."""
@@ -225,10 +260,13 @@ class Archive:
     def _end(self) -> dict[str, Any]:
         with reading(self.path) as file:
             finish = file["embedding/finish"]
-            length = int(finish["length"][0])
-            return cast(dict[str, Any], json.loads(finish["json"][:length].tobytes())) if length else {}
+            data = finish["json"][: count_of(finish["length"])]
+            if len(data) and not np.array_equal(digest_of(data), finish["digest"][...]):
+                raise ArchiveError(f"{self.path}: the archive is damaged: how the run ended")
+            return cast(dict[str, Any], json.loads(data.tobytes())) if len(data) else {}
 
     def _text(self, name: str) -> str:
+        self._check_record()
         with reading(self.path) as file:
             return str(file["embedding"][name].asstr()[()])
 
@@ -242,6 +280,8 @@ class ArchivedBlock:
 
     def __init__(self, archive: Archive, name: str, step: int | None) -> None:
         self.archive, self.name, self.step = archive, name, -1 if step is None else step
+        archive._check_record()
+        archive._check_rows()
         with reading(archive.path) as file:
             group = file["VTKHDF"][name]
             first = dict.fromkeys(PLACES, 0) if step is None else mesh_of(group, step)

@@ -18,6 +18,7 @@ from embedding.archive.writer import ArchiveWriter, SampledField, check_target
 from embedding.solving.events import Listener
 
 if TYPE_CHECKING:
+    from embedding.archive.reader import Archive
     from embedding.solving.events import Field, StepRecord
     from embedding.solving.problem import Problem
     from embedding.solving.solution import Solution
@@ -42,9 +43,17 @@ class Recorder(Listener):
     def __init__(self, path: str | os.PathLike[str], order: int | None = None) -> None:
         self._target = check_target(path)
         self._order = order
+        self._resumed = False
         self._writer: ArchiveWriter | None = None
         self._problem: Problem | None = None
         self._cuts: list[dict[str, Any]] = []
+
+    @classmethod
+    def going_on(cls, archive: Archive) -> Recorder:
+        """The recorder of a run that goes on from the last step of ``archive``, in the same file."""
+        recorder = cls(archive.path, archive.block(archive.blocks[0]).order)
+        recorder._resumed, recorder._cuts = True, list(archive.checkpoint()["cuts"])
+        return recorder
 
     @property
     def path(self) -> Path:
@@ -52,9 +61,13 @@ class Recorder(Listener):
         return self._writer.path if self._writer is not None else self._target
 
     def started(self, problem: Problem) -> None:
-        """Build the pictured blocks; nothing is written yet."""
+        """Build the pictured blocks; nothing is written yet, but that a run which goes on takes over its archive."""
+        self._problem = problem
+        if self._resumed:
+            self._writer = ArchiveWriter.going_on(self._target, self._blocks(problem))
+            return
         per_length = problem.reduction.name == "plane-strain"
-        self._problem, self._cuts = problem, []
+        self._cuts = []
         self._writer = ArchiveWriter(self._target, self._blocks(problem), documents(problem), per_length)
 
     def _blocks(self, problem: Problem) -> dict[str, LagrangeBlock]:
@@ -69,13 +82,13 @@ class Recorder(Listener):
         writer, problem = self._writer, self._problem
         if writer is not None and problem is not None:
             fields = [_sampled(writer.blocks[field.block], field, problem) for field in state.fields()]
-            writer.append(record, fields, state.vectors())
+            writer.append(record, fields, {**state.memory(), "cuts": self._cuts})
 
     def remeshed(self, problem: Problem) -> None:
         """Steps from here on are on the new mesh."""
         self._problem = problem
         if self._writer is not None:
-            self._writer.remesh(self._blocks(problem))
+            self._writer.remesh(self._blocks(problem), getattr(problem, "origin", None))
 
     def cut(self, step_number: int, fraction: float, reason: str) -> None:
         """Remember the cut; it is written with the end of the run."""

@@ -1,4 +1,4 @@
-"""Making an archive of a killed run as good as one that was closed."""
+"""Making an archive of a killed run as good as one that was closed, or ready to be written on."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from embedding.archive.file import reading
-from embedding.archive.layout import LIBVER, mesh_of, table
+from embedding.archive.layout import LIBVER, count_of, counted, growable, mesh_of, table, to_disk
 from embedding.errors import ArchiveError
 
 
@@ -24,16 +24,24 @@ def repair(path: str | os.PathLike[str]) -> int:
 
     Raises ArchiveError if the archive cannot be read, or the copy not be written.
     """
-    source = Path(path)
+    return rewrite(Path(path))
+
+
+def rewrite(source: Path, new_run: str | None = None) -> int:
+    """:func:`repair`; with ``new_run``, by whose name the run goes on, as an archive without an end."""
     temporary = source.with_name(f"{source.name}.partial")
     with reading(source) as old:
         try:
             with h5py.File(temporary, "w", libver=LIBVER, locking=False) as new:
-                copy = _Copy(old)
+                copy = _Copy(old, new_run)
                 copy.group(old, new)
+                if new_run is not None:
+                    new["embedding/finish/length"][...] = counted(0)
+            to_disk(temporary)
             os.replace(temporary, source)
+            to_disk(source.parent)
         except OSError as error:
-            raise ArchiveError(f"{source}: cannot be repaired: {error}") from error
+            raise ArchiveError(f"{source}: cannot be rewritten: {error}") from error
     return copy.committed
 
 
@@ -41,11 +49,12 @@ class _Copy:
     """Copies what counts of an open archive; datasets that are linked from several groups stay one
     dataset."""
 
-    def __init__(self, file: Any) -> None:
-        self.committed = int(file["embedding/committed"][0])
+    def __init__(self, file: Any, new_run: str | None) -> None:
+        self.new_run = new_run
+        self.committed = count_of(file["embedding/committed"])
         ends = file["embedding/steps/newton_end"] if self.committed else []
         self.newton = int(ends[self.committed - 1]) if self.committed else 0
-        self.finish = int(file["embedding/finish/length"][0])
+        self.finish = count_of(file["embedding/finish/length"]) if new_run is None else 0
         self.ends = {name: self.end(file, name) for name in file["VTKHDF/Assembly/Scene"]}
         self.copied: dict[Any, Any] = {}
 
@@ -60,7 +69,11 @@ class _Copy:
     def group(self, old: Any, new: Any) -> None:
         """Fill the group ``new`` with the attributes and members of ``old``."""
         for name, value in old.attrs.items():
-            new.attrs[name] = np.int64(self.committed) if name == "NSteps" else value
+            if name == "NSteps":
+                value = np.int64(self.committed)
+            elif name == "run" and self.new_run is not None:
+                value = self.new_run
+            new.attrs[name] = value
         for name in old:
             link = old.get(name, getlink=True)
             if isinstance(link, h5py.SoftLink):
@@ -87,22 +100,19 @@ class _Copy:
             return self.ends[place[-2]]
         if place[1] == "VTKHDF" and len(place) == 3:
             return sys.maxsize  # meshes
+        if place[-2] == "checkpoint":
+            return sys.maxsize
         return {"newton": self.newton, "finish": self.finish}.get(place[-1], self.committed)
 
     def table(self, old: Any, group: Any, name: str) -> Any:
         """Copy the rows that count of a dataset that grows."""
         rows = min(self.rows(group.name.split("/")), len(old))
-        new = group.create_dataset(
-            name,
-            shape=(rows, *old.shape[1:]),
-            maxshape=old.maxshape,
-            chunks=old.chunks,
-            dtype=old.dtype,
-            fletcher32=old.fletcher32,
-        )
+        new = growable(group, name, old.dtype, "1", old.shape[1:], old.chunks[0], old.fletcher32)
+        new.resize(rows, axis=0)
         pace = 1 << 16
         for begin in range(0, rows, pace):
             new[begin : begin + pace] = old[begin : min(begin + pace, rows)]
+        del new.attrs["unit"]
         for key, value in old.attrs.items():
             new.attrs[key] = value
         return new

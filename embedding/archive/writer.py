@@ -22,7 +22,11 @@ import numpy as np
 import numpy.typing as npt
 
 from embedding.archive import layout, views
+from embedding.archive.digests import damaged_rows, digest_of, fields_digest, record_digest, rows_digests, slot_digest
+from embedding.archive.file import reading
 from embedding.archive.lagrange import LagrangeBlock
+from embedding.archive.memory import packed
+from embedding.archive.repair import rewrite
 from embedding.errors import ArchiveError
 
 if TYPE_CHECKING:
@@ -65,56 +69,90 @@ class ArchiveWriter:
         self.blocks, self.documents, self.per_length = dict(blocks), dict(documents), per_length
         self.committed = 0
         self._begin: dict[str, dict[str, int]] = {}
-        self._remeshed = False
+        self._remeshed, self._origins = False, list[Any]()
         self._run = uuid.uuid4().hex
         self._partial = self.target.with_name(f"{self.target.name}.partial")
 
-    def remesh(self, blocks: Mapping[str, LagrangeBlock]) -> None:
-        """The steps from here on are on other meshes, of the same ``blocks`` by name."""
+    @classmethod
+    def going_on(cls, target: Path, blocks: Mapping[str, LagrangeBlock]) -> ArchiveWriter:
+        """The writer of a run that goes on from the last step of the archive ``target``, on the meshes of its
+        ``blocks``. Whatever else may still be writing there is refused from now on.
+
+        Raises ArchiveError if the archive cannot be read or written, or its last meshes are others.
+        """
+        writer = cls(target, blocks, {})
+        rewrite(target, writer._run)
+        with reading(target) as file:
+            writer.committed = layout.count_of(file["embedding/committed"])
+            shared = file["embedding/vtk"]
+            for name, block in blocks.items():
+                first = layout.mesh_of(file["VTKHDF"][name], writer.committed - 1)
+                if int(file["VTKHDF"][name]["NumberOfPoints"][first["Part"]]) != block.point_count:
+                    raise ArchiveError(f"{target}: block {name!r} has another mesh than the run that would go on")
+                if layout.table("Part", name) in shared:
+                    writer._begin[name] = first
+        views.write_views(target, list(blocks))
+        return writer
+
+    def remesh(self, blocks: Mapping[str, LagrangeBlock], origin: Any = None) -> None:
+        """The steps from here on are on other meshes, of the same ``blocks`` by name; ``origin`` is what they are made
+        from."""
         self.blocks, self._remeshed = dict(blocks), True
+        self._origins.append(origin)
 
     def append(
-        self, record: StepRecord, fields: Sequence[SampledField], vectors: Mapping[str, npt.NDArray[Any]]
+        self, record: StepRecord, fields: Sequence[SampledField], memory: Mapping[str, Any]
     ) -> None:
-        """Commit one accepted step: its record, the fields of all blocks and the degree-of-freedom vectors.
+        """Commit one accepted step: its record, the fields of all blocks, and what a run goes on from.
 
-        The fields, scalars and vectors of the first step are those of the run.
+        The fields and scalars of the first step are those of the run; ``memory`` is what ``memory.packed`` takes.
         """
         if self.committed and self._remeshed:
-            self._append_on_new_meshes(record, fields, vectors)
+            self._append_on_new_meshes(record, fields, memory)
             return
         if self.committed:
             with self._open(self.path, "r+") as file:
-                self._step(file, record, fields, vectors)
+                self._step(file, record, fields, memory)
             self.committed += 1
             return
         self._remeshed = False
         with self._open(self._partial, "w") as file:
             self._create(file)
             layout.create_scalars(file["embedding"], list(_scalars(record)), self.per_length)
-            layout.create_checkpoint(file["embedding"], vectors)
+            layout.create_checkpoint(file["embedding"], len(packed(memory)[1]))
             declared: dict[str, dict[str, tuple[str, tuple[int, ...]]]] = {name: {} for name in self.blocks}
             for field in fields:
                 declared[field.block][field.name] = (field.unit, field.values.shape[1:])
             layout.create_fields(file, declared)
-            self._step(file, record, fields, vectors)
+            self._add_origins(file["embedding"])
+            file["embedding/digest"][...] = record_digest(file)
+            self._step(file, record, fields, memory)
         self.committed = 1
         self._place(self.target, list(self.blocks))
 
     def _append_on_new_meshes(
-        self, record: StepRecord, fields: Sequence[SampledField], vectors: Mapping[str, npt.NDArray[Any]]
+        self, record: StepRecord, fields: Sequence[SampledField], memory: Mapping[str, Any]
     ) -> None:
         """Commit a step that changes what there is in the file, in a copy that takes its place."""
         self._copy()
         with self._open(self._partial, "r+") as file:
+            own, steps = file["embedding"], self.committed
+            if damaged_rows(own, steps):
+                raise ArchiveError(f"{self.path}: the archive has been damaged on the disk; see embedding verify")
             for name, block in self.blocks.items():
-                layout.part_tables(file, name, self.committed)
+                layout.part_tables(file, name, steps)
                 self._begin[name] = layout.add_mesh(file["VTKHDF"][name], block)
-            del file["embedding/checkpoint"]
-            layout.create_checkpoint(file["embedding"], vectors)
-            self._step(file, record, fields, vectors)
+            layout.put(own["steps/rows_digest"], 0, list(rows_digests(own, 0, steps)))  # of more tables than before
+            self._add_origins(own)
+            file["embedding/digest"][...] = record_digest(file)
+            self._step(file, record, fields, memory)
         self.committed, self._remeshed = self.committed + 1, False
         self._place(self.path, list(self.blocks))
+
+    def _add_origins(self, own: Any) -> None:
+        for origin in self._origins:
+            layout.add_origin(own, origin)
+        self._origins = []
 
     def _copy(self) -> None:
         try:
@@ -131,6 +169,7 @@ class ArchiveWriter:
             return
         with self._open(self._partial, "w") as file:
             self._create(file)
+            file["embedding/digest"][...] = record_digest(file)
             self._end(file, data)
         taken = self.target.exists()
         self._place(self.target.with_stem(f"{self.target.stem}.failed") if taken else self.target, [])
@@ -144,7 +183,7 @@ class ArchiveWriter:
         file: Any,
         record: StepRecord,
         fields: Sequence[SampledField],
-        vectors: Mapping[str, npt.NDArray[Any]],
+        memory: Mapping[str, Any],
     ) -> None:
         own, step = file["embedding"], self.committed
         shared = own["vtk"]
@@ -161,14 +200,23 @@ class ArchiveWriter:
             tables |= {layout.table(place, block): value for place, value in begin.items()}
         for name, entry in tables.items():
             layout.put(shared[name], step, np.reshape(entry, (1, *shared[name].shape[1:])))
-        slot = f"embedding/checkpoint/{layout.SLOTS[(step + 1) % 2]}"
-        for name, vector in vectors.items():
-            self._known(file, slot, name)[...] = vector
+        layout.put(own["steps/rows_digest"], step, list(rows_digests(own, step, step + 1)))
+        layout.put(own["steps/fields_digest"], step, [fields_digest(file, step)])
+        self._keep(own["checkpoint"][layout.SLOTS[(step + 1) % 2]], memory)
         _synchronise(file)
         for block in self.blocks:
             file["VTKHDF"][block]["Steps"].attrs.modify("NSteps", np.int64(step + 1))
-        own["committed"][0] = step + 1
+        own["committed"][...] = layout.counted(step + 1)
         _synchronise(file)
+
+    def _keep(self, slot: Any, memory: Mapping[str, Any]) -> None:
+        """Write what the run goes on from into the slot that does not count yet."""
+        text, numbers = packed(memory)
+        data = np.frombuffer(text.encode(), "u1")
+        layout.put(slot["text"], 0, data)
+        layout.put(slot["numbers"], 0, numbers)
+        slot["extent"][...] = [self.committed + 1, len(data), len(numbers)]
+        slot["digest"][...] = slot_digest(slot)
 
     def _rows(self, own: Any, record: StepRecord) -> None:
         """The rows of a step in the tables of steps and of Newton iterations."""
@@ -190,8 +238,9 @@ class ArchiveWriter:
     def _end(self, file: Any, data: npt.NDArray[np.uint8]) -> None:
         finish = file["embedding/finish"]
         layout.put(finish["json"], 0, data)
+        finish["digest"][...] = digest_of(data)
         _synchronise(file)
-        finish["length"][0] = len(data)
+        finish["length"][...] = layout.counted(len(data))
         _synchronise(file)
 
     def _known(self, file: Any, group: str, name: str) -> Any:
@@ -217,7 +266,7 @@ class ArchiveWriter:
         """Move the partial file to its final name and write the view files of its blocks."""
         try:
             os.replace(self._partial, path)
-            _to_disk(path.parent)
+            layout.to_disk(path.parent)
             self.path = path
             views.write_views(path, blocks)
         except OSError as error:
@@ -242,15 +291,7 @@ def check_target(target: str | os.PathLike[str]) -> Path:
 def _synchronise(file: Any) -> None:
     """Bring everything written so far to the disk, before anything is written that relies on it."""
     file.flush()
-    _to_disk(file.filename)
-
-
-def _to_disk(path: str | os.PathLike[str]) -> None:
-    descriptor = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
+    layout.to_disk(file.filename)
 
 
 def _scalars(record: StepRecord) -> dict[str, float]:

@@ -28,6 +28,8 @@ from embedding.geometry.places import displaced
 from embedding.geometry.spaces import Mask
 from embedding.shell.point_loads import point_load_vector
 
+Memory = dict[str, Any]
+"""Named numbers and arrays, lists and tables of them: what a part of a run goes on from."""
 SADDLE = ("moment", "pressure", "tau_t", "tau_b", "phi", "jump")
 """Unknowns in which the Lagrangian is stationary but not least: each brings one negative eigenvalue to its matrix."""
 
@@ -283,19 +285,49 @@ class System:
         squared = self.domain.shell_integral(InnerProduct(field, field))
         return float(np.sqrt(squared / self.domain.shell_integral(1.0)))
 
-    def save(self) -> Any:
-        """A copy of the whole state, for :meth:`restore`."""
-        motions = [[v.copy() for v in motion.vectors()] for motion in self._different_motions]
+    def save(self) -> Memory:
+        """A copy of the whole state as named arrays, for :meth:`restore`: all unknowns, the motions of the ambient,
+        what bending measures rotations from (None without bending)."""
         bending = self.unknowns.bending
-        return np.array(self.unknowns.state.vec.FV().NumPy()), motions, bending.memory if bending is not None else None
+        return {
+            "unknowns": np.array(self.unknowns.state.vec.FV().NumPy()),
+            "motions": [motion.save() for motion in self._different_motions],
+            "turned": None if bending is None else bending.memory,
+        }
 
-    def restore(self, saved: Any) -> None:
+    def restore(self, saved: Memory) -> None:
         """Go back to a state returned by :meth:`save`."""
-        state, motions, memory = saved
-        self.unknowns.state.vec.FV().NumPy()[:] = state
+        self._put(saved)
         if self.unknowns.bending is not None:
-            self.unknowns.bending.memory = memory
             self._measured = self._linearised = self._displacement
-        for motion, kept in zip(self._different_motions, motions, strict=True):
-            for vector, values in zip(motion.vectors(), kept, strict=True):
-                vector[:] = values
+
+    def _put(self, saved: Memory) -> None:
+        self.unknowns.state.vec.FV().NumPy()[:] = saved["unknowns"]
+        if self.unknowns.bending is not None:
+            self.unknowns.bending.memory = saved["turned"]
+        for motion, kept in zip(self._different_motions, saved["motions"], strict=True):
+            motion.restore(kept)
+
+    def memory(self) -> Memory:
+        """The state, and all else that what is solved next depends on to the last bit: matrices at hand and the
+        displacements that rotations and stresses are seen from. ``ranges`` tells where each unknown begins and ends."""
+        membrane = self.lagrangian.membrane
+        return self.save() | {
+            "ranges": {name: [where.start, where.stop] for name, where in self._ranges()},
+            "assembled": [motion.memory() for motion in self._different_motions],
+            "measured": None if self.unknowns.bending is None else self._measured,
+            "linearised": None if membrane is None else self._linearised,
+        }
+
+    def _ranges(self) -> list[tuple[str, slice]]:
+        return [(name, self.unknowns.range(name)) for name in self.unknowns.names]
+
+    def recall(self, memory: Memory) -> None:
+        """Go on from what :meth:`memory` returned, at the same load."""
+        self._put(memory)
+        for motion, assembled in zip(self._different_motions, memory["assembled"], strict=True):
+            motion.recall(assembled)
+        if memory["measured"] is not None:
+            self._measured = memory["measured"]
+        if memory["linearised"] is not None:
+            self._linearised = memory["linearised"]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 from embedding.scene import Stage
@@ -14,6 +13,7 @@ from embedding.solving.continuation import Condition, Corrector, Direction, Metr
 from embedding.solving.critical import Critical, Search
 from embedding.solving.curve import Point
 from embedding.solving.events import Iteration
+from embedding.solving.memory import Memory, of_target, point_of
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
 from embedding.solving.ramp import step
@@ -37,63 +37,111 @@ RETRIES = 5
 critical points in it."""
 
 
-def _goal(goals: Callable[[], Sequence[Condition]], number: int) -> Condition:
-    return goals()[number]
-
-
 class ArcStage:
-    """One stage followed by arc length."""
+    """One stage followed by arc length until every one of the ``goals`` has been met, in their order; the last is the
+    stage's end."""
 
-    def __init__(self, session: Session, stage: Stage, begin: Target, end: Target) -> None:
+    def __init__(
+        self, session: Session, stage: Stage, begin: Target, end: Target, goals: Callable[[], Sequence[Condition]]
+    ) -> None:
         self.session, self.stage, self.begin, self.end = session, stage, begin, end
+        self._goals, self._number = goals, 0
+        self._known = len(session.steps)
         self._follow_on(session.problem)
         self._iterations: list[Iteration] = []
         self._started = time.perf_counter()
         self._bifurcations = 0
         self._good: Any = None
+        self._walk: Walk | None = None
+        self._launched: float | None = None
 
     def _follow_on(self, problem: Problem) -> None:
         options = self.session.scene.solver
         self.path = ShellPath(problem, self.begin, self.end, self.session.newton.clock)
         self.corrector = Corrector(self.path, options.tolerance, min(options.max_iterations, MOST_ITERATIONS))
 
-    def follow(self, goals: Callable[[], Sequence[Condition]]) -> Result:
-        """Walk until every one of the ``goals`` has been met, in their order; the last is the stage's end."""
+    def accepted(self) -> None:
+        """The state at the walk's last point, or that of the first step out of a singular state, is an accepted step;
+        both are known already."""
+
+    def memory(self) -> Memory:
+        """What the rest of the stage depends on, right after an accepted step."""
+        return {
+            "start": of_target(self.begin),
+            "end": of_target(self.end),
+            "goal": self._number,
+            "known": self._known,
+            "bifurcations": self._bifurcations,
+            "launched": self._launched,
+            "walk": None if self._walk is None else self._walk.memory(),
+        }
+
+    def recall(self, memory: Memory) -> None:
+        """Go on from what :meth:`memory` returned; the system is in the state of that step."""
+        self._number, self._known = memory["goal"], memory["known"]
+        self._bifurcations, self._launched = memory["bifurcations"], memory["launched"]
+        walk = memory["walk"]
+        if walk is None:
+            return
+        self.path.restore((self.session.problem.system.save(), walk["here"]["parameter"]))
+        here = point_of(walk["here"], self.path.save())
+        self._walk = self._walk_from(Metric(self.path, walk["weight"]), here)
+        self._walk.recall(walk)
+
+    def follow(self) -> Result:
+        """Walk until the last goal has been met."""
         saved = self.path.save()
         try:
-            return self._follow(goals)
+            return self._follow()
         except KeyboardInterrupt:
             self.path.restore(self._good if self._good is not None else saved)
             raise
 
-    def _follow(self, goals: Callable[[], Sequence[Condition]]) -> Result:
-        known = len(self.session.steps)
-        walk = self._launched(goals()[0])
-        if isinstance(walk, Result):
-            return walk
-        options = self.session.scene.solver
-        for number in range(len(goals())):
-            goal = goals()[number]
-            walk.goal, walk.done = goal, abs(goal.gap(walk.here.values, walk.here.parameter)) == 0.0
-            while not walk.done:
-                if len(self.session.steps) - known >= options.max_steps:
-                    return Result.MAX_STEPS
-                if walk.here.place > options.max_arc:
-                    return Result.MAX_ARC
-                walk.at_once = Result.INVERTED_AMBIENT if self.session.tired else None
-                reason = self._step(walk)
-                faded = self.path.faded
-                if reason is not None:
-                    self.path.restore(walk.here.saved)
-                worn = self.session.worn and not walk.done
-                if worn or (reason is Result.INVERTED_AMBIENT and self.session.tired):
-                    walk, moved = self._remeshed(walk, partial(_goal, goals, number))
-                    reason = None if moved else reason
-                if reason is not None:
-                    return Result.FIELD_VANISHED if faded else reason
-        return Result.CONVERGED
+    def _follow(self) -> Result:
+        walk = self._walk or self._launch()
+        while not isinstance(walk, Result):
+            walk = self._to_goal(walk)
+            if isinstance(walk, Result):
+                break
+            self._number += 1
+            if self._number == len(self._goals()):
+                return Result.CONVERGED
+            self._aim(walk)
+        return walk
 
-    def _remeshed(self, walk: Walk, goal: Callable[[], Condition]) -> tuple[Walk, bool]:
+    @property
+    def _goal(self) -> Condition:
+        return self._goals()[self._number]
+
+    def _aim(self, walk: Walk) -> None:
+        """Send the walk to the present goal, if it is not there."""
+        walk.goal = self._goal
+        walk.done = walk.goal.gap(walk.here.values, walk.here.parameter) == 0.0
+
+    def _to_goal(self, walk: Walk) -> Walk | Result:
+        """The walk at the present goal, or why it does not get there."""
+        options = self.session.scene.solver
+        while not walk.done:
+            if self.session.worn:
+                walk, _ = self._remeshed(walk)
+            if len(self.session.steps) - self._known >= options.max_steps:
+                return Result.MAX_STEPS
+            if walk.here.place > options.max_arc:
+                return Result.MAX_ARC
+            walk.at_once = Result.INVERTED_AMBIENT if self.session.tired else None
+            reason = self._step(walk)
+            if reason is None:
+                continue
+            faded = self.path.faded
+            self.path.restore(walk.here.saved)
+            if reason is Result.INVERTED_AMBIENT and self.session.tired:
+                walk, moved = self._remeshed(walk)
+                reason = None if moved else reason
+            if reason is not None:
+                return Result.FIELD_VANISHED if faded else reason
+        return walk
+
+    def _remeshed(self, walk: Walk) -> tuple[Walk, bool]:
         """The walk on a new mesh of the ambient around its last point; the same one and False if there is none."""
         here, kept, found = walk.here, (self.path, self.corrector), []
 
@@ -113,17 +161,18 @@ class ArcStage:
                 self.path.restore(here.saved)
         if not moved:
             return walk, False
-        metric = Metric(self.path, walk.metric.weight)
-        new = Walk(self.corrector, metric, found[0], goal(), walk.stride, self._watch, self._cut)
-        new.length, new.done, self._good = walk.length, walk.done, found[0].saved
+        new = self._walk_from(Metric(self.path, walk.metric.weight), found[0])
+        new.length, new.done, self._walk = walk.length, walk.done, new
         return new, True
 
-    def _launched(self, goal: Condition) -> Walk | Result:
+    def _launch(self) -> Walk | Result:
         """The walk at its first point; out of a singular state (a membrane at rest) the first step is one of load."""
+        if self._launched is not None:
+            return self._behind(self._launched)
         saved = self.path.save()
-        walk = self._walk(goal)
+        walk = self._begun()
         if isinstance(walk, Walk):
-            if not self.session.at_rest:
+            if walk.done or not self.session.at_rest:
                 return walk
             patient, walk.stride = walk.stride, replace(walk.stride, smallest=IMPATIENT)
             reason = self._step(walk)
@@ -132,30 +181,40 @@ class ArcStage:
                 return walk
             if reason is Result.COMPRESSIVE_MEMBRANE:
                 return reason
+        self._walk = None
         self.path.restore(saved)
-        return self._out_of_rest(goal)
+        return self._out_of_rest()
 
-    def _out_of_rest(self, goal: Condition) -> Walk | Result:
+    def _out_of_rest(self) -> Walk | Result:
         """The walk from a state at a small part of the load, found by Newton's method with a proximal term."""
         reason = Result.STEP_BELOW_MINIMUM
         for launch in LAUNCHES:
-            fraction = launch * self._stride().first
+            self._launched = fraction = launch * self._stride().first
             found = step(self.session, self.stage, self.path.target(fraction))
             if found is None:
-                self.path.move(self.path.values(), fraction)
-                self._started = time.perf_counter()
-                return self._walk(goal)
+                return self._behind(fraction)
             reason = found
             self.session.cut(launch, found.name)
         return reason
 
-    def _walk(self, goal: Condition) -> Walk | Result:
-        found = start(self.corrector, goal, self._watch)
+    def _behind(self, launched: float) -> Walk | Result:
+        """The walk that begins at the present state, to which a first step of load led."""
+        self.path.move(self.path.values(), launched)
+        self._started = time.perf_counter()
+        return self._begun()
+
+    def _begun(self) -> Walk | Result:
+        """The walk at the present state, with the tangent towards the present goal."""
+        found = start(self.corrector, self._goal, self._watch)
         if isinstance(found, Result):
             return found
-        metric, here = found
+        self._walk = self._walk_from(*found)
+        self._aim(self._walk)
+        return self._walk
+
+    def _walk_from(self, metric: Metric, here: Point) -> Walk:
         self._good = here.saved
-        return Walk(self.corrector, metric, here, goal, self._stride(), self._watch, self._cut)
+        return Walk(self.corrector, metric, here, self._goal, self._stride(), self._watch, self._cut)
 
     def _stride(self) -> Stride:
         hint = FIRST if self.stage.steps is None else min(FIRST, 1.0 / self.stage.steps)

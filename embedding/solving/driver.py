@@ -15,33 +15,40 @@ from embedding.solving.arc import ArcStage
 from embedding.solving.continuation import Condition, at_parameter
 from embedding.solving.estimate import estimate_error
 from embedding.solving.events import Listener
+from embedding.solving.memory import Kept
 from embedding.solving.path import DEFAULT_STEPS, Target, followed, stage_target
 from embedding.solving.places import displacement_row
-from embedding.solving.ramp import ramp
+from embedding.solving.ramp import Ramp
 from embedding.solving.result import Result
 from embedding.solving.session import Session
 from embedding.solving.solution import Cost, Solution
 
 
-def run(scene: Scene, listeners: Sequence[Listener] = ()) -> Solution:
+def run(scene: Scene, listeners: Sequence[Listener] = (), kept: Kept | None = None) -> Solution:
     """Solve ``scene`` and return its solution, whatever became of it; ``solution.result`` says.
+
+    With ``kept`` go on from the last step of a run of the same scene that ended early.
 
     Raises:
         SceneError: the scene cannot be modelled.
+        OtherMeshError: the meshes that the earlier run was on do not come out the same again.
     """
     SetNumThreads(scene.solver.threads)
     with TaskManager():
-        return Run(scene, listeners).solve()
+        return Run(scene, listeners, kept).solve()
 
 
 class Run(Session):
     """One solve in progress."""
 
-    def __init__(self, scene: Scene, listeners: Sequence[Listener]) -> None:
+    def __init__(self, scene: Scene, listeners: Sequence[Listener], kept: Kept | None = None) -> None:
         self._wall, self._cpu = time.perf_counter(), time.process_time()
         super().__init__(scene, listeners)
         for number, stage in enumerate(scene.path):
             self._goals(number, stage)  # refuses what cannot be met before anything is solved
+        if kept is not None:
+            self.recall(kept)
+        self._way = kept.memory["way"] if kept is not None else None
 
     def solve(self) -> Solution:
         """Walk the path to its end or to the first step that cannot be taken."""
@@ -49,7 +56,7 @@ class Run(Session):
             listener.started(self.problem)
         result, error = Result.CONVERGED, None
         try:
-            for number in range(len(self.scene.path)):
+            for number in range(self.stage, len(self.scene.path)):
                 result = self._stage(number)
                 if not result.ok:
                     break
@@ -66,12 +73,21 @@ class Run(Session):
         return solution
 
     def _stage(self, number: int) -> Result:
-        stage = self.scene.path[number]
-        start, end = self._stage_start(stage), stage_target(stage, self.full_difference)
+        self.stage, stage, memory = number, self.scene.path[number], self._way
+        if memory is None:
+            start, end = self._stage_start(stage), stage_target(stage, self.full_difference)
+        else:
+            start, end = (Target(**memory[name]) for name in ("start", "end"))
         with_field, joint = self.problem.system.physics.field is not None, self.solver is self.newton
+        way: Ramp | ArcStage
         if followed(stage, start, end, with_field=with_field, joint=joint):
-            return ArcStage(self, stage, start, end).follow(lambda: self._goals(number, stage))
-        return ramp(self, stage, start, end, stage.steps or DEFAULT_STEPS)
+            way = ArcStage(self, stage, start, end, lambda: self._goals(number, stage))
+        else:
+            way = Ramp(self, stage, start, end)
+        if memory is not None:
+            way.recall(memory)
+        self.way, self._way = way, None
+        return way.follow()
 
     def _goals(self, number: int, stage: Stage) -> list[Condition]:
         """What a stage that follows its path is to meet, one after the other."""

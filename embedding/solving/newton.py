@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from embedding.coupling.linear import LinearSolverError
-from embedding.coupling.system import System
+from embedding.coupling.system import Memory, System
 from embedding.solving.events import Iteration
 from embedding.solving.path import Target
 from embedding.solving.result import Result
@@ -63,6 +63,13 @@ class Newton:
     def load(self, target: Target) -> None:
         """Set the load of the system."""
         self.system.load(target.mechanical, target.field, target.volume, target.pressure)
+
+    def memory(self) -> Memory:
+        """Nothing: a load step depends on the state of the system alone."""
+        return {}
+
+    def recall(self, memory: Memory) -> None:
+        """Go on from what :meth:`memory` returned."""
 
     def solve(self, watch: Callable[[Iteration], None], *, at_rest: bool = False) -> Outcome:
         """Iterate from the present state; the state is only good afterwards if the outcome has no reason.

@@ -110,8 +110,7 @@ class FieldPart:
             if name in taker.unknowns:
                 taker.unknowns.field(name).vec.data = giver.unknowns.field(name).vec
         if giver.unknowns.bending is not None and taker.unknowns.bending is not None:
-            state, motions, _ = taker.save()
-            taker.restore((state, motions, giver.unknowns.bending.memory))
+            taker.restore(taker.save() | {"turned": giver.unknowns.bending.memory})
 
 
 def _part(vector: Any, system: System) -> Array:

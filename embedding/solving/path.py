@@ -78,7 +78,10 @@ def planned_steps(stage: Stage, *, with_field: bool, joint: bool = True) -> int 
 
 @dataclass
 class Stepper:
-    """Fractions of one stage, at most 1 / steps apart, halved on failure and doubled again on success."""
+    """Fractions of one stage, at most 1 / steps apart, halved on failure and doubled again on success.
+
+    ``length`` is the present distance.
+    """
 
     steps: int
     min_step: float
@@ -87,27 +90,27 @@ class Stepper:
 
     def __post_init__(self) -> None:
         self._planned = 1.0 / self.steps
-        self._length = self._planned
+        self.length = self._planned
 
     def proposals(self) -> Iterator[float]:
         """Yield the next fraction to try until the stage is done; call ``accept`` or ``cut`` after each."""
         while self.accepted < 1.0:
             left = 1.0 - self.accepted
             # A remainder of rounding is not a step of its own.
-            self.fraction = 1.0 if left < self._length * (1 + 1e-9) else self.accepted + self._length
+            self.fraction = 1.0 if left < self.length * (1 + 1e-9) else self.accepted + self.length
             yield self.fraction
 
     def accept(self) -> None:
         """The last proposal was solved."""
         self.accepted = self.fraction
-        self._length = min(self._planned, 2 * self._length)
+        self.length = min(self._planned, 2 * self.length)
 
     def cut(self) -> bool:
         """The last proposal failed; False when no smaller step is allowed."""
-        self._length = (self.fraction - self.accepted) / 2
-        return self._length >= self.min_step * self._planned
+        self.length = (self.fraction - self.accepted) / 2
+        return self.length >= self.min_step * self._planned
 
     @property
     def relative_length(self) -> float:
         """Present step as a part of the planned one."""
-        return self._length / self._planned
+        return self.length / self._planned

@@ -7,35 +7,74 @@ import time
 from embedding.scene import Stage
 from embedding.solving.diagnosis import Landmark, diagnose
 from embedding.solving.events import Iteration
-from embedding.solving.path import Stepper, Target
+from embedding.solving.memory import Memory, of_target
+from embedding.solving.path import DEFAULT_STEPS, Stepper, Target
 from embedding.solving.problem import Problem
 from embedding.solving.result import Result
 from embedding.solving.session import Session
 from embedding.solving.stability import unstable_modes
 
 
-def ramp(session: Session, stage: Stage, start: Target, end: Target, steps: int) -> Result:
-    """Walk from ``start`` to ``end`` in ``steps`` planned steps; a step that fails is cut."""
-    stepper = Stepper(steps, session.scene.solver.min_step)
-    landmark: Landmark | None = None
-    for fraction in stepper.proposals():
-        target = end.between(start, fraction)
-        reason = step(session, stage, target)
-        if reason is Result.INVERTED_AMBIENT and session.tired:
-            landmark = None if landmark is None else landmark.measured(session.problem, end)
-            reason = step(session, stage, target) if _remeshed(session) else reason
-        if reason is None:
-            if landmark is None or stepper.relative_length >= 0.5:
-                landmark = Landmark(session.problem.system.save(), target, fraction)
-            stepper.accept()
-            if session.worn and fraction < 1.0:
-                landmark = landmark.measured(session.problem, end)
+class Ramp:
+    """One stage walked from ``start`` to ``end`` in planned steps; a step that fails is cut."""
+
+    def __init__(self, session: Session, stage: Stage, start: Target, end: Target) -> None:
+        self.session, self.stage, self.start, self.end = session, stage, start, end
+        self._stepper = Stepper(stage.steps or DEFAULT_STEPS, session.scene.solver.min_step)
+        self._landmark: Landmark | None = None
+
+    def follow(self) -> Result:
+        """Walk to the end of the stage, or to the first step that cannot be taken."""
+        session, stepper, end = self.session, self._stepper, self.end
+        for fraction in stepper.proposals():
+            if session.worn:
+                self._measure()
                 _remeshed(session)
-        elif not stepper.cut():
-            return diagnose(session.problem, reason, session.at, end, stepper.accepted, landmark)
-        else:
+            target = end.between(self.start, fraction)
+            reason = step(session, self.stage, target)
+            if reason is Result.INVERTED_AMBIENT and session.tired:
+                self._measure()
+                reason = step(session, self.stage, target) if _remeshed(session) else reason
+            if reason is None:
+                continue
+            if not stepper.cut():
+                return diagnose(session.problem, reason, session.at, end, stepper.accepted, self._landmark)
             session.cut(stepper.relative_length, reason.name)
-    return Result.CONVERGED
+        return Result.CONVERGED
+
+    def _measure(self) -> None:
+        """The mesh that the landmark belongs to may be given up."""
+        if self._landmark is not None:
+            self._landmark = self._landmark.measured(self.session.problem, self.end)
+
+    def accepted(self) -> None:
+        """The state at the last proposal is an accepted step."""
+        session, stepper = self.session, self._stepper
+        if self._landmark is None or stepper.relative_length >= 0.5:
+            self._landmark = Landmark(session.problem.system.save(), session.at, stepper.fraction)
+        stepper.accept()
+
+    def memory(self) -> Memory:
+        """What the ramp goes on from after an accepted step."""
+        mark, here = self._landmark, self.session.at
+        return {
+            "start": of_target(self.start),
+            "end": of_target(self.end),
+            "accepted": self._stepper.accepted,
+            "length": self._stepper.length,
+            "landmark": None if mark is None else {
+                "target": of_target(mark.target), "fraction": mark.fraction, "rate": mark.rate,
+                "saved": mark.saved if mark.target is not here and mark.rate is None else None,
+            },
+        }  # fmt: skip
+
+    def recall(self, memory: Memory) -> None:
+        """Go on from what :meth:`memory` returned; the system is in the state of that step."""
+        self._stepper.accepted, self._stepper.length = memory["accepted"], memory["length"]
+        mark = memory["landmark"]
+        if mark is not None:
+            saved = mark["saved"] or self.session.problem.system.save()
+            self._landmark = Landmark(saved, Target(**mark["target"]), mark["fraction"], mark["rate"])
 
 
 def _remeshed(session: Session) -> bool:

@@ -8,6 +8,7 @@ from ngsolve import GridFunction
 from embedding.geometry.matching import put
 from embedding.geometry.remeshing import remeshed
 from embedding.shell.bending import CurveBending
+from embedding.solving.memory import Memory
 from embedding.solving.problem import Array, Problem
 
 WORN, TIRED = 0.12, 0.5
@@ -16,9 +17,16 @@ turn elements over."""
 ON_NODES = ("u", "y_t", "y_b", "o_t", "o_b", "tau_t", "tau_b")
 
 
+def origin_of(problem: Problem) -> Memory:
+    """What of the present state a new mesh around it depends on."""
+    saved = problem.system.save()
+    return {"unknowns": saved["unknowns"], "turned": saved["turned"]}
+
+
 class Remeshed(Problem):
     """``problem`` with a new ambient around its shell. The displacement and all that lives on the shell's nodes are the
     same; bending moments and the potential are linear in their equations, and are found with the next Newton step.
+    ``origin`` is the state it was made in, from which it can be made again.
 
     Raises:
         RemeshingError: there is no sound mesh around the deformed shell.
@@ -28,6 +36,7 @@ class Remeshed(Problem):
         unknowns = problem.system.unknowns
         found = remeshed(problem.domain, unknowns.field("u"))
         super().__init__(problem.scene, problem.plan, found.domain)
+        self.origin = origin_of(problem)
         self._before, self._matching = unknowns, found.matching
         present, system = np.array(unknowns.state.vec.FV().NumPy()), self.system
         system.unknowns.state.vec.FV().NumPy()[:] = self.carried(present)
@@ -35,6 +44,15 @@ class Remeshed(Problem):
         if isinstance(counted, CurveBending) and isinstance(before, CurveBending):
             counted.carried_from(before, found.matching)
         system.restore(system.save())  # the state did not get here by Newton steps
+
+    @classmethod
+    def from_origin(cls, problem: Problem, origin: Memory) -> Remeshed:
+        """The new ``problem`` that was made of this one in the state ``origin``; ``problem`` is left in that state."""
+        system = problem.system
+        system.unknowns.state.vec.FV().NumPy()[:] = origin["unknowns"]
+        if system.unknowns.bending is not None:
+            system.unknowns.bending.memory = origin["turned"]
+        return cls(problem)
 
     def carried(self, values: Array) -> Array:
         """What a vector of all unknowns of the problem before has on the shell's nodes and in numbers, as one of this

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, Protocol
 
-from embedding.errors import SceneError
+from embedding.errors import EmbeddingError, SceneError
 from embedding.geometry.remeshing import RemeshingError
 from embedding.plan import explain
 from embedding.scene import Scene
@@ -15,6 +15,7 @@ from embedding.solving.acceleration import ACCELERATORS
 from embedding.solving.critical import Critical
 from embedding.solving.diagnosis import compressed, region_in_compression
 from embedding.solving.events import Iteration, Listener, StepRecord
+from embedding.solving.memory import Kept, Memory, critical_of, mesh_digest, of_critical, of_target
 from embedding.solving.newton import Newton
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
@@ -29,12 +30,30 @@ REST = 1e-6
 """A shell that is stretched by less counts as unstressed."""
 
 
+class Way(Protocol):
+    """How the present stage is followed."""
+
+    def accepted(self) -> None:
+        """The present state is an accepted step: go on from it."""
+
+    def memory(self) -> Memory:
+        """What the rest of the stage depends on, right after an accepted step."""
+
+
+class OtherMeshError(EmbeddingError):
+    """A run cannot be continued: the meshes it was on do not come out the same again."""
+
+    exit_code = 2
+
+
 class Session:
     """One solve in progress: the problem, its state, and what has been reached."""
 
     def __init__(self, scene: Scene, listeners: Sequence[Listener]) -> None:
         self.scene, self.listeners = scene, listeners
+        self.way: Way | None = None
         self._work_on(Problem(scene, explain(scene)))
+        self.stage = 0
         self.remeshings, self._meshed_at = 0, 0
         self.steps: list[StepRecord] = []
         self.critical: list[CriticalPoint] = []
@@ -42,8 +61,42 @@ class Session:
         self.detail, self.no_mesh = "", ""
         self.at = Target(0.0, 0.0, None, None if self.full_difference is None else 0.0)
 
+    def memory(self) -> Memory:
+        """What the rest of the run depends on, right after an accepted step."""
+        return {
+            "stage": self.stage,
+            "way": None if self.way is None else self.way.memory(),
+            "at": of_target(self.at),
+            "system": self.problem.system.memory(),
+            "solver": self.solver.memory(),
+            "mesh": self._digest,
+            "meshed_at": self._meshed_at,
+            "iterations": self.iterations,
+            "critical_points": [of_critical(point) for point in self.critical],
+        }
+
+    def recall(self, kept: Kept) -> None:
+        """Go on from where a run of the same scene was; of its stage, see ``memory["way"]``.
+
+        Raises:
+            OtherMeshError: the mesh is another one than it was.
+        """
+        memory = kept.memory
+        for origin in kept.origins:
+            self._work_on(Remeshed.from_origin(self.problem, origin))
+        if self._digest != memory["mesh"]:
+            raise OtherMeshError("the mesh comes out different from that of the run: it was made by other versions")
+        self.remeshings, self._meshed_at = len(kept.origins), memory["meshed_at"]
+        self.steps, self.at, self.stage = list(kept.steps), Target(**memory["at"]), memory["stage"]
+        self.critical = [critical_of(point) for point in memory["critical_points"]]
+        self.iterations = memory["iterations"]
+        self.load(self.at)
+        self.problem.system.recall(memory["system"])
+        self.solver.recall(memory["solver"])
+
     def _work_on(self, problem: Problem) -> None:
-        self.problem, self.state = problem, State(problem)
+        self.problem, self.state = problem, State(problem, self.memory)
+        self._digest = mesh_digest(problem.mesh)
         options = self.scene.solver
         self.newton = Newton(problem.system, options.tolerance, options.max_iterations, self.state.mean_pressures)
         self.solver = self._rung()
@@ -147,6 +200,8 @@ class Session:
         )  # fmt: skip
         self.steps.append(record)
         self.at, self.detail, self.no_mesh = target, "", ""
+        if self.way is not None:
+            self.way.accepted()
         for listener in self.listeners:
             listener.accepted(self.state, record)
         return None

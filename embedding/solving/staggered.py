@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from embedding.coupling.linear import LinearSolverError
-from embedding.coupling.system import System
+from embedding.coupling.system import Memory, System
 from embedding.solving.acceleration import Accelerator, Array, contraction
 from embedding.solving.events import Iteration
 from embedding.solving.newton import Clock, Newton, Outcome
@@ -53,6 +53,14 @@ class Parts:
         self._target = target
         self.joint.load(target.mechanical, target.field, target.volume, target.pressure)
         self.shell.load(target.mechanical, 0.0, target.volume, target.pressure)
+
+    def memory(self) -> Memory:
+        """What the next load step depends on beside the joint system."""
+        return {"shell": self.shell.memory()}
+
+    def recall(self, memory: Memory) -> None:
+        """Go on from what :meth:`memory` returned, at the same load."""
+        self.shell.recall(memory["shell"])
 
     def _shell(self, watch: Callable[[Iteration], None], *, at_rest: bool) -> Outcome:
         start = time.perf_counter()
@@ -172,6 +180,16 @@ class Once(Parts):
         gap = self.field.size(self.field.forces() - given) / size if size > 0.0 else 0.0
         self.scalars = {"coupling_iterations": 1.0, "coupling_gap": gap}
         return outcome
+
+    def memory(self) -> Memory:
+        """The given forces as well, and the field's factor they belong to."""
+        return super().memory() | {"given": None if self._given is None else list(self._given)}
+
+    def recall(self, memory: Memory) -> None:
+        """Go on from what :meth:`memory` returned, at the same load."""
+        super().recall(memory)
+        given = memory["given"]
+        self._given = None if given is None else (given[0], given[1])
 
     def _forces(self) -> Array:
         """Forces of the field at its present strength on the undeformed shape."""

@@ -1,8 +1,9 @@
-"""The present state of a problem in SI units: named fields for pictures, scalars for histories, vectors to restart."""
+"""The present state of a problem in SI units: named fields for pictures, scalars for histories, vectors."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
@@ -15,15 +16,19 @@ from embedding.coupling.potential_solve import PotentialSolve
 from embedding.shell.kinematics import Kinematics
 from embedding.shell.loads import enclosed_volume
 from embedding.solving.events import Field
+from embedding.solving.memory import Memory
 from embedding.solving.outputs import output_fields
 from embedding.solving.problem import Problem
 
 
 class State:
-    """A view of ``problem``'s present state; its fields are live and change with the next Newton step."""
+    """A view of ``problem``'s present state; its fields are live and change with the next Newton step.
 
-    def __init__(self, problem: Problem) -> None:
-        self.problem = problem
+    ``memory`` returns what a run goes on from, right after an accepted step.
+    """
+
+    def __init__(self, problem: Problem, memory: Callable[[], Memory] = dict) -> None:
+        self.problem, self.memory = problem, memory
         self._system, self._scales = problem.system, problem.scales
         self._domain, self._unknowns = problem.domain, problem.system.unknowns
         self._values = {name: self._unknowns.field(name) for name in self._unknowns.names}
@@ -153,11 +158,8 @@ class State:
         return field
 
     def vectors(self) -> dict[str, npt.NDArray[np.float64]]:
-        """Copies of all unknowns, by name: what a restart needs."""
-        named = {name: np.array(self._values[name].vec.FV().NumPy()) for name in self._unknowns.names}
-        for side, motion in self._system.motions.items():
-            named[f"motion_{side}"] = np.concatenate(motion.vectors())
-        return named
+        """Copies of all unknowns, by name."""
+        return {name: np.array(self._values[name].vec.FV().NumPy()) for name in self._unknowns.names}
 
     # -- scalars
 

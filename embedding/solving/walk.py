@@ -21,6 +21,7 @@ from embedding.solving.continuation import (
     at_parameter,
 )
 from embedding.solving.curve import Curve, Point
+from embedding.solving.memory import Memory, of_point, point_of
 from embedding.solving.result import Result
 
 AIM, EASE, NEAR = 5.0, 1.5, 1e-4
@@ -148,6 +149,25 @@ class Walk:
         """Leave the path: the last step ended at ``point``, on another one, to be left in steps of ``length``."""
         self.length = length
         self._older, self.before, self.here, self.done = None, None, point, False
+
+    def memory(self) -> Memory:
+        """What the walk goes on from, right after a step; the state of ``here`` is the equilibrium's."""
+        return {
+            "here": of_point(self.here),
+            "before": None if self.before is None else of_point(self.before),
+            "weight": self.metric.weight,
+            "length": self.length,
+            "first": self._first,
+            "done": self.done,
+            "blind": self._blind,
+        }
+
+    def recall(self, memory: Memory) -> None:
+        """Go on from what :meth:`memory` returned, ``here`` and the metric being those of it."""
+        before = memory["before"]
+        self.before = None if before is None else point_of(before, None)  # gone back to in no case
+        self.length, self._first = memory["length"], memory["first"]
+        self.done, self._blind = memory["done"], memory["blind"]
 
     def _attempt(self) -> Result | None:
         curve = Curve(self.before, self.here)

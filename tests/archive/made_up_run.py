@@ -192,8 +192,8 @@ class State:
             ]
         return [one for one in out if one.block in self.problem.blocks]
 
-    def vectors(self) -> dict[str, Any]:
-        """Degree-of-freedom vectors."""
+    def memory(self) -> dict[str, Any]:
+        """What a run goes on from."""
         return {"phi": self.potential.vec.FV().NumPy().copy(), "mean": np.array([self.factor])}
 
 

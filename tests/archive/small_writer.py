@@ -53,14 +53,14 @@ def fields(number: int) -> list[SampledField]:
     ]
 
 
-def vectors(number: int) -> dict[str, Any]:
-    """The checkpoint of a step."""
-    return {"u": numbers(number + 3, 2000), "phi": numbers(number + 4, 333)}
+def memory(number: int) -> dict[str, Any]:
+    """The checkpoint of a step, larger with every step."""
+    return {"u": numbers(number + 3, 2000 + 100 * number), "phi": numbers(number + 4, 333), "at": number / 7}
 
 
 def write(target: ArchiveWriter, number: int) -> None:
     """Commit step ``number``."""
-    target.append(record(number), fields(number), vectors(number))
+    target.append(record(number), fields(number), memory(number))
 
 
 def check(archive: Archive) -> int:
@@ -72,8 +72,10 @@ def check(archive: Archive) -> int:
             found = archive.block(field.block).field(field.name, number - 1)
             np.testing.assert_array_equal(found, field.values)
     if count:
-        for name, vector in archive.checkpoint().items():
-            np.testing.assert_array_equal(vector, vectors(count)[name])
+        kept = archive.checkpoint()
+        assert kept.keys() == memory(count).keys()
+        for name, vector in memory(count).items():
+            np.testing.assert_array_equal(kept[name], vector)
     return count
 
 

@@ -159,11 +159,6 @@ def test_newton_converges_quadratically() -> None:
     assert updates[-2] < 50 * updates[-3] ** 2 + 1e-12
 
 
-def state_of(made: Run) -> tuple[Any, ...]:
-    state, motions = made.problem.system.save()
-    return (state, *(v for side in sorted(motions) for v in motions[side]))
-
-
 def test_a_step_that_fails_leaves_the_last_good_state() -> None:
     """Beyond the limit pressure: every cut starts again from what was accepted, and so does who looks at the end."""
     diary = Diary()

@@ -1,0 +1,120 @@
+"""Digests of what counts in an archive: a bit that is flipped anywhere in it is noticed.
+
+Metadata of HDF5 carry checksums of their own, and so do the chunks of fields and meshes (weak ones); tables that steps
+share, texts and attributes have none. So every step is stored with a SHA-256 of its rows in all tables and one of its
+fields; the documents, meshes, units and names share one, and so have each slot of the checkpoint and the finish.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from typing import Any
+
+import h5py
+import numpy as np
+import numpy.typing as npt
+
+from embedding.archive.layout import DIGESTS, mesh_of, table
+
+Digest = npt.NDArray[np.uint8]
+TABLES = ("steps", "scalars", "vtk")
+GROWING = ("embedding/committed", "embedding/digest", *(f"embedding/{name}" for name in (
+    *TABLES, "newton", "checkpoint", "finish")))  # fmt: skip
+CHANGING = ("NSteps", "run")
+"""Attributes that change while a run is written: they say no more than the number of steps, and who writes."""
+
+
+def digest_of(*parts: Any) -> Digest:
+    """SHA-256 of arrays and texts, one after the other, with their sizes."""
+    found = hashlib.sha256()
+    for part in parts:
+        data = part.encode() if isinstance(part, str) else np.ascontiguousarray(part).tobytes()
+        found.update(len(data).to_bytes(8, "little"))
+        found.update(data)
+    return np.frombuffer(found.digest(), "u1")
+
+
+def rows_digests(own: Any, begin: int, end: int) -> Iterator[Digest]:
+    """Of the steps from ``begin`` on, before ``end``: what they have in the tables of ``own``, the group /embedding."""
+    columns = {
+        f"{name}/{column}": dataset[begin:end]
+        for name in TABLES
+        for column, dataset in sorted(own[name].items())
+        if column not in DIGESTS
+    }
+    ends = columns["steps/newton_end"].tolist()
+    first = int(own["steps/newton_end"][begin - 1]) if begin else 0
+    newton = {name: column[first : ends[-1] if ends else first] for name, column in sorted(own["newton"].items())}
+    starts = [0, *(end - first for end in ends)]
+    for row in range(end - begin):
+        parts: list[Any] = []
+        for name, column in columns.items():
+            parts += [name, column[row]]
+        for name, column in newton.items():
+            parts += [name, column[starts[row] : starts[row + 1]]]
+        yield digest_of(*parts)
+
+
+def damaged_rows(own: Any, steps: int) -> list[int]:
+    """Numbers, from 1, of those of the first so many ``steps`` whose rows are not what was written."""
+    if not steps:
+        return []
+    stored = own["steps/rows_digest"][:steps]
+    found = list(rows_digests(own, 0, steps))
+    return [k + 1 for k in range(steps) if k >= len(stored) or not np.array_equal(stored[k], found[k])]
+
+
+def fields_digest(file: Any, step: int) -> Digest:
+    """Of all fields of one step."""
+    parts: list[Any] = []
+    for block in sorted(file["VTKHDF/Assembly/Scene"]):
+        group = file["VTKHDF"][block]
+        points = int(group["NumberOfPoints"][mesh_of(group, step)["Part"]])
+        begin = int(file["embedding/vtk"][table("Row", block)][step])
+        for name, dataset in sorted(group["PointData"].items()):
+            parts += [f"{block}/{name}", dataset[begin : begin + points]]
+    return digest_of(*parts)
+
+
+def record_digest(file: Any) -> Digest:
+    """Of all that does not grow with the steps: documents, meshes, origins, and the names and attributes of all."""
+    return digest_of(*_static(file, ""))
+
+
+def _static(group: Any, path: str) -> Iterator[Any]:
+    yield from _attributes(group, path)
+    for name in sorted(group):
+        place, link = f"{path}/{name}".lstrip("/"), group.get(name, getlink=True)
+        yield place
+        if isinstance(link, (h5py.SoftLink, h5py.ExternalLink)):
+            yield link.path
+            continue
+        item = group[name]
+        if isinstance(item, h5py.Group):
+            yield from _static(item, place)
+            continue
+        yield from _attributes(item, place)
+        yield f"{item.dtype} {item.shape[1:]}"
+        if not _grows(place):
+            yield item.asstr()[()] if h5py.check_string_dtype(item.dtype) else item[...]
+
+
+def _grows(place: str) -> bool:
+    if place.startswith("VTKHDF/"):
+        return place.count("/") > 2
+    return place.startswith(GROWING)
+
+
+def _attributes(item: Any, place: str) -> Iterator[Any]:
+    for name in sorted(item.attrs):
+        if name not in CHANGING:
+            value = item.attrs[name]
+            yield f"{place}@{name}"
+            yield value if isinstance(value, str) else np.asarray(value)
+
+
+def slot_digest(slot: Any) -> Digest:
+    """Of one slot of the checkpoint."""
+    _, text, numbers = slot["extent"][...].tolist()
+    return digest_of(slot["extent"][...], slot["text"][:text], slot["numbers"][:numbers])

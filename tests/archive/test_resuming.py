@@ -1,0 +1,150 @@
+"""A run that was stopped, however, goes on as if it had not been: equal to the last bit."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from pathlib import Path
+
+import h5py
+import pytest
+
+from embedding import ArchiveError, Result, Scene, SolveError, open_archive, resume, solve
+from embedding.archive import recorder, resuming
+from embedding.solving import session
+from tests.archive.resumed import CHANGES, KILL, Stop, check_resumed_after, scene_called, start
+from tests.archive.same import assert_same
+from tests.balloons import SMALL
+
+SLOW = {"bent strip in a field", "coupled in space"}
+SOME = {"past limit points, bending": 7, "out of rest, past pull-in": 4, "bending in space": 6, "pull-in under load": 4}
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow if name in SLOW else ()) for name in CHANGES]
+)
+def test_after_a_step(name: str, tmp_path: Path) -> None:
+    check_resumed_after(scene_called(name), tmp_path, SOME.get(name, 2))
+
+
+@pytest.mark.parametrize("name", ["membrane by arc length", "membrane", "staggered"])
+def test_with_new_meshes_on_the_way(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(session, "WORN", 1.0)
+    check_resumed_after(scene_called(name), tmp_path, 3)
+    assert open_archive(tmp_path / "whole.vtkhdf").scalars["remeshings"][-1] >= 2
+
+
+@pytest.mark.parametrize("name", ["bare balloon", "membrane by arc length"])
+def test_killed_and_killed_again(name: str, tmp_path: Path) -> None:
+    """Processes that end without a word in their second and third step; the next ones go on."""
+    whole, path = tmp_path / "whole.vtkhdf", tmp_path / "run.vtkhdf"
+    last = len(solve(scene_called(name), archive=whole).steps)
+    assert start(name, path, "2", "1").wait() == -9
+    assert len(open_archive(path)) == 1
+    if last > 2:
+        assert start(name, path, "resume", "3", "2").wait() == -9
+        assert len(open_archive(path)) == 2
+    assert start(name, path, "resume").wait() == 0
+    assert_same(open_archive(path), open_archive(whole))
+
+
+@pytest.mark.parametrize("name", ["membrane", "membrane by arc length", "past limit points, bending"])
+def test_interrupted(name: str, tmp_path: Path) -> None:
+    whole, path = tmp_path / "whole.vtkhdf", tmp_path / "run.vtkhdf"
+    scene = scene_called(name)
+    solve(scene, archive=whole)
+    with pytest.raises(SolveError, match=re.escape(f"embedding resume {path}")) as stopped:
+        solve(scene, archive=path, listeners=[Stop(2, 2, KeyboardInterrupt)])
+    assert stopped.value.solution.result is Result.INTERRUPTED
+    assert open_archive(path).result.name == "INTERRUPTED"
+    assert solve(scene, resume=path).archive == path
+    assert_same(open_archive(path), open_archive(whole))
+
+
+def test_an_error_of_a_listener(tmp_path: Path) -> None:
+    whole, path = tmp_path / "whole.vtkhdf", tmp_path / "run.vtkhdf"
+    solve(scene_called("bare balloon"), archive=whole)
+    with pytest.raises(ZeroDivisionError):
+        solve(scene_called("bare balloon"), archive=path, listeners=[Stop(2, 1, ZeroDivisionError)])
+    resume(path)
+    assert_same(open_archive(path), open_archive(whole))
+
+
+def stopped(folder: Path, text: str = SMALL) -> Path:
+    """The archive of a run that stopped in its second step."""
+    path = folder / "run.vtkhdf"
+    solve(Scene.from_toml(text), archive=path, throw=False, listeners=[Stop(2, 1, KeyboardInterrupt)])
+    return path
+
+
+def test_what_may_not_go_on(tmp_path: Path) -> None:
+    path = stopped(tmp_path)
+    with pytest.raises(ArchiveError, match="another scene"):
+        solve(Scene.from_toml(SMALL.replace("500 Pa", "510 Pa")), resume=path)
+    with pytest.raises(ArchiveError, match="in its own archive"):
+        solve(Scene.from_toml(SMALL), resume=path, archive=tmp_path / "other.vtkhdf")
+    assert resume(path).result.ok
+    before = path.read_bytes()
+    with pytest.raises(ArchiveError, match="finished: there is nothing to resume"):
+        resume(path)
+    assert path.read_bytes() == before
+    never = tmp_path / "never.vtkhdf"
+    solve(Scene.from_toml(SMALL), archive=never, throw=False, listeners=[Stop(1, 1, KeyboardInterrupt)])
+    with pytest.raises(ArchiveError, match="no step was accepted"):
+        resume(never)
+    with pytest.raises(ArchiveError, match="no such archive"):
+        resume(tmp_path / "missing.vtkhdf")
+
+
+def test_a_damaged_or_older_archive(tmp_path: Path) -> None:
+    path = stopped(tmp_path)
+    with h5py.File(path, "r+", libver=("v110", "v110")) as file:
+        file["embedding/scalars/stretch"][0] *= 1.001
+    with pytest.raises(ArchiveError, match="damaged: rows of step 1.*cannot be resumed"):
+        resume(path)
+    with h5py.File(path, "r+") as file:
+        file["embedding"].attrs["schema"] = 2
+    with pytest.raises(ArchiveError, match="has layout 2; this version of embedding reads layout 3"):
+        resume(path)
+
+
+def test_other_versions_are_warned_of(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = stopped(tmp_path)
+    true = recorder.versions()
+    monkeypatch.setattr(resuming, "versions", lambda: true | {"ngsolve": "7.0"})
+    with pytest.warns(resuming.OtherVersionsWarning, match=r"ngsolve .* then, 7\.0 now: .* last digits"):
+        assert resume(path).result.ok
+
+
+def test_another_mesh_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = stopped(tmp_path)
+    before = path.read_bytes()
+    monkeypatch.setattr(session, "mesh_digest", lambda mesh: "another one")
+    with pytest.raises(session.OtherMeshError, match="mesh comes out different"):
+        resume(path)
+    assert path.read_bytes() == before
+
+
+def test_a_moved_archive_goes_on_where_it_is(tmp_path: Path) -> None:
+    path = stopped(tmp_path)
+    moved = tmp_path / "elsewhere" / "it.vtkhdf"
+    moved.parent.mkdir()
+    path.rename(moved)
+    assert resume(moved).archive == moved
+    assert sorted(one.name for one in moved.parent.iterdir()) == ["it.shell.vtkhdf", "it.vtkhdf"]
+
+
+def test_nobody_writes_into_a_run_that_went_on_elsewhere(tmp_path: Path) -> None:
+    """A run that was taken for dead stops at its next step; the one that took over is not disturbed."""
+    path, other = tmp_path / "run.vtkhdf", tmp_path / "other.vtkhdf"
+
+    class TakeOver(Stop):
+        def iterated(self, step_number, target, iteration) -> None:  # type: ignore[no-untyped-def]
+            if (step_number, iteration.number) == self.where:
+                with warnings.catch_warnings():
+                    resume(path)
+                    other.write_bytes(path.read_bytes())
+
+    with pytest.raises(ArchiveError, match="another run has replaced"):
+        solve(scene_called("bare balloon"), archive=path, listeners=[TakeOver(2, 1, KILL)])
+    assert path.read_bytes() == other.read_bytes()
