@@ -133,6 +133,21 @@ def plot(
 
 
 @app.command
+def export(
+    archive: ArchiveFile,
+    /,
+    *,
+    out: Annotated[Path | None, Parameter(help="New folder; default the archive's name.")] = None,
+) -> None:
+    """Write an archive as .pvd and .vtu files, which every version of ParaView reads with its time steps."""
+    from embedding.archive import open_archive
+    from embedding.view.export import export as write
+
+    for path in write(open_archive(archive), archive.with_suffix("") if out is None else out):
+        print(path)
+
+
+@app.command
 def fit(
     data: Annotated[Path, Parameter(help="CSV file with the columns mode, stretch, nominal_stress [unit].")],
     /,
