@@ -67,8 +67,7 @@ def test_readme_commands_exist() -> None:
         assert Scene.from_toml((ROOT / scene).read_text(), source=scene)
     assert (ROOT / "setup.sh").is_file()
     documented = set(re.findall(r"`embedding (\w+)", (ROOT / "docs" / "run.md").read_text()))
-    assert documented == {"run", "explain", "info", "plot", "fit", "study", "table"}
-    assert all(app[name] for name in documented)
+    assert documented == {name for name in app if not name.startswith("-")}
 
 
 def written_study(folder: Path) -> Study:
