@@ -188,6 +188,7 @@ def study(
     *,
     folder: Annotated[Path | None, Parameter(help="Folder of the results; default the study file's name.")] = None,
     workers: Annotated[int | None, Parameter(help="Cases solved at once; default one for each processor.")] = None,
+    scheduler: Annotated[str | None, Parameter(help="Address of a dask scheduler whose workers solve them.")] = None,
     as_json: AsJson = False,
     progress: Annotated[bool, Parameter(help="Show the progress on standard error.")] = True,
 ) -> None:
@@ -202,7 +203,7 @@ def study(
     from embedding.studies import load_study, run_study
 
     target = Path(file.stem) if folder is None else folder
-    result = run_study(load_study(file), target, workers=workers, progress=progress)
+    result = run_study(load_study(file), target, workers=workers, scheduler=scheduler, progress=progress)
     if as_json:
         print_json(study_summary(result))
     else:

@@ -49,10 +49,10 @@ class StudyDisplay:
         if self.progress.disable:
             return
         for case in running:
-            if case.key not in self.bars:
-                self.bars[case.key] = self.progress.add_task(_title(case), total=None)
             told = read_json(folder.case(case.key).progress)
-            if told is not None:
+            if told is not None:  # it has begun
+                if case.key not in self.bars:
+                    self.bars[case.key] = self.progress.add_task(_title(case), total=None)
                 bar, title = self.bars[case.key], f"{_title(case)} {told['stage']}"
                 self.progress.update(bar, description=title, total=told["planned"], completed=told["step"])
 

@@ -14,8 +14,8 @@ class StudyError(EmbeddingError):
     exit_code: ClassVar[int] = 2
 
 
-def require(*packages: str) -> None:
-    """Raise StudyError, saying how to install them, if packages that studies need are missing."""
+def require(*packages: str, extra: str = "studies") -> None:
+    """Raise StudyError, saying by which ``extra`` to install them, if packages are missing."""
     missing = [name for name in packages if importlib.util.find_spec(name) is None]
     if missing:
-        raise StudyError(f'studies need {" and ".join(missing)}: pip install "embedding[studies]"')
+        raise StudyError(f'studies need {" and ".join(missing)}: pip install "embedding[{extra}]"')

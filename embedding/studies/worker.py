@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 import multiprocessing
 import os
+import sys
 import threading
 import traceback
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -27,7 +29,9 @@ PRELOADED = ("embedding.studies.worker", "embedding.api", "embedding.archive", "
 
 def solve_case(path: str) -> None:
     """Solve the scene in the case's folder ``path``; the archive and the record go there, too."""
-    _end_with_parent()
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        _end_with(parent.join)
     folder = CaseFolder(Path(path))
     _print_to(folder.log)
     progress = Progress(folder)
@@ -76,14 +80,13 @@ class Progress(Listener):
         self.tell()
 
 
-def _end_with_parent() -> None:
-    """A study that is killed takes its cases along, so that the next one finds nobody at work in its folders."""
-    parent = multiprocessing.parent_process()
+def _end_with(wait: Callable[[], object]) -> None:
+    """End this process when ``wait`` returns, as its parent has ended: a study that is killed takes its cases along, so
+    that the next one finds nobody at work in its folders."""
 
     def follow() -> None:
-        if parent is not None:
-            parent.join()
-            os._exit(1)
+        wait()
+        os._exit(1)
 
     threading.Thread(target=follow, daemon=True).start()
 
@@ -94,3 +97,8 @@ def _print_to(log: Path) -> None:
     for stream in (1, 2):
         os.dup2(target, stream)
     os.close(target)
+
+
+if __name__ == "__main__":
+    _end_with(sys.stdin.buffer.read)  # of a pipe that nobody writes to: it ends with the process that made it
+    solve_case(sys.argv[1])

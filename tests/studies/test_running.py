@@ -20,7 +20,7 @@ from embedding.errors import Problem, SceneError
 from embedding.studies import Study, StudyError, StudyResult, cases_of, load_study, open_study, run_study
 from embedding.studies.files import CaseFolder, StudyFolder, write_case
 from embedding.studies.index import Index, read_index
-from embedding.studies.running import death
+from embedding.studies.pool import death
 from embedding.studies.worker import Progress, outcome
 from tests.studies.samples import PRESSURE, balloon, keys, signals, study
 
