@@ -31,6 +31,7 @@ from embedding.scene.shapes import (
     TSection,
 )
 from embedding.scene.shell import Region, Shell
+from embedding.scene.strain_energy import StrainEnergy
 from embedding.scene.supports import Support
 from embedding.scene.surface_fields import PressureField, ThicknessField
 from embedding.scene.symmetry import axisymmetry_problems
@@ -89,6 +90,7 @@ __all__ = [
     "Sphere",
     "SphereBody",
     "StVenantKirchhoff",
+    "StrainEnergy",
     "Stage",
     "Strip",
     "Support",

@@ -1,7 +1,8 @@
-"""Arithmetic in x, y and z as text, read without running code.
+"""Arithmetic in a few variables as text, read without running code.
 
-The grammar: numbers, x, y, z, pi, + - * /, ** with a constant exponent, brackets, and the functions sin, cos,
-exp, sqrt and tanh. It is evaluated on anything with arithmetic: floats, arrays, finite element functions.
+The grammar: numbers, the variables (x, y, z unless stated otherwise), pi, + - * /, ** with a constant exponent,
+brackets, and the functions sin, cos, exp, log, sqrt and tanh. It is evaluated on anything with arithmetic: floats,
+arrays, finite element functions.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ MAX_EXPONENT = 16
 VARIABLES = ("x", "y", "z")
 Functions = Mapping[str, Callable[[Any], Any]]
 FLOAT_FUNCTIONS: Functions = {
-    "sin": math.sin, "cos": math.cos, "exp": math.exp, "sqrt": math.sqrt, "tanh": math.tanh,
+    "sin": math.sin, "cos": math.cos, "exp": math.exp, "log": math.log, "sqrt": math.sqrt, "tanh": math.tanh,
 }  # fmt: skip
 """The functions of the grammar for floats; other objects need a mapping with the same names."""
 
@@ -37,73 +38,79 @@ _CHARACTERS = re.compile(r"[0-9A-Za-z_+\-*/()., \t]*")
 
 @dataclass(frozen=True)
 class Expression:
-    """A checked expression: call it with x, y, z and, for other types than floats, the functions."""
+    """A checked expression in ``names``, of which it uses ``variables``; ``tree`` is for who takes it apart."""
 
     text: str
     variables: frozenset[str]
-    _tree: ast.expr = field(repr=False, compare=False)
+    names: tuple[str, ...] = VARIABLES
+    tree: ast.expr = field(repr=False, compare=False, kw_only=True)
 
-    def __call__(self, x: Any, y: Any, z: Any, functions: Functions = FLOAT_FUNCTIONS) -> Any:
-        """The value at (x, y, z); constant expressions give a float whatever x, y and z are."""
-        return _evaluate(self._tree, {"x": x, "y": y, "z": z, "pi": math.pi}, functions)
+    def __call__(self, *values: Any, functions: Functions = FLOAT_FUNCTIONS) -> Any:
+        """The value at ``values`` of the names, with the ``functions`` for them if they are no floats; constant
+        expressions give a float."""
+        named = dict(zip(self.names, values, strict=True))
+        return _evaluate(self.tree, named | {"pi": math.pi}, functions)
 
 
 @lru_cache(maxsize=64)
-def parse_expression(text: str) -> Expression:
-    """Check ``text`` against the grammar.
+def parse_expression(text: str, names: tuple[str, ...] = VARIABLES) -> Expression:
+    """Check ``text`` against the grammar with the variables ``names``.
 
     Raises:
         ValueError: outside the grammar, too long or too deep; the text says what is wrong.
     """
     if len(text) > MAX_LENGTH:
         raise ValueError(f"must have at most {MAX_LENGTH} characters")
+    listed = " and ".join([", ".join(names[:-1]), names[-1]])
     if "^" in text:
         raise ValueError("powers are written with **")
     if not _CHARACTERS.fullmatch(text):
-        raise ValueError("must be arithmetic in x, y and z on one line")
+        raise ValueError(f"must be arithmetic in {listed} on one line")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             tree = ast.parse(text.strip(), mode="eval").body
     except (SyntaxError, ValueError, MemoryError, RecursionError) as error:
-        raise ValueError("must be arithmetic in x, y and z; this cannot be read") from error
+        raise ValueError(f"must be arithmetic in {listed}; this cannot be read") from error
     variables: set[str] = set()
-    _check(tree, variables, MAX_DEPTH)
-    return Expression(text, frozenset(variables), tree)
+    _check(tree, names, variables, MAX_DEPTH)
+    return Expression(text, frozenset(variables), names, tree=tree)
 
 
-def _check(node: ast.expr, variables: set[str], depth: int) -> None:
+def _check(node: ast.expr, names: tuple[str, ...], variables: set[str], depth: int) -> None:
     if depth == 0:
         raise ValueError(f"must not be nested deeper than {MAX_DEPTH} levels")
     match node:
         case ast.Constant(value=value):
             _number(value)
         case ast.Name(id=name):
-            if name not in (*VARIABLES, "pi"):
-                raise ValueError(_unknown(name))
+            if name not in (*names, "pi"):
+                raise ValueError(_unknown(name, names))
             variables.update({name} - {"pi"})
         case ast.UnaryOp(op=sign, operand=operand) if type(sign) in _UNARY:
-            _check(operand, variables, depth - 1)
+            _check(operand, names, variables, depth - 1)
         case ast.BinOp(left=left, op=ast.Pow(), right=right):
-            _exponent(right)
-            _check(left, variables, depth - 1)
+            if abs(exponent_of(right)) > MAX_EXPONENT:
+                raise ValueError(f"the exponent of ** must lie between -{MAX_EXPONENT} and {MAX_EXPONENT}")
+            _check(left, names, variables, depth - 1)
         case ast.BinOp(left=left, op=symbol, right=right) if type(symbol) in _BINARY:
-            _check(left, variables, depth - 1)
-            _check(right, variables, depth - 1)
+            _check(left, names, variables, depth - 1)
+            _check(right, names, variables, depth - 1)
         case ast.Call(func=ast.Name(id=name), args=[argument], keywords=[]) if name in FLOAT_FUNCTIONS:
-            _check(argument, variables, depth - 1)
+            _check(argument, names, variables, depth - 1)
         case ast.Call(func=ast.Name(id=name)) if name in FLOAT_FUNCTIONS:
             raise ValueError(f"{name} takes one argument")
         case ast.Call(func=ast.Name(id=name)):
-            raise ValueError(_unknown(name))
+            raise ValueError(_unknown(name, names))
         case _:
             functions = ", ".join(FLOAT_FUNCTIONS)
-            raise ValueError(f"may use only numbers, x, y, z, pi, + - * / **, brackets, {functions}")
+            raise ValueError(f"may use only numbers, {', '.join(names)}, pi, + - * / **, brackets, {functions}")
 
 
-def _unknown(name: str) -> str:
-    guess = nearest(name, (*VARIABLES, "pi", *FLOAT_FUNCTIONS))
-    hint = f"did you mean {guess}?" if guess else f"known are x, y, z, pi, {', '.join(FLOAT_FUNCTIONS)}"
+def _unknown(name: str, names: tuple[str, ...]) -> str:
+    known = (*names, "pi", *FLOAT_FUNCTIONS)
+    guess = nearest(name, known)
+    hint = f"did you mean {guess}?" if guess else f"known are {', '.join(known)}"
     return f'unknown name "{name}": {hint}'
 
 
@@ -116,17 +123,14 @@ def _number(value: object) -> float:
     return number
 
 
-def _exponent(node: ast.expr) -> float:
+def exponent_of(node: ast.expr) -> float:
+    """The constant that ``node`` is, an exponent; ValueError if it is none."""
     match node:
         case ast.UnaryOp(op=sign, operand=ast.Constant(value=value)) if type(sign) in _UNARY:
-            exponent = float(_UNARY[type(sign)](_number(value)))
+            return float(_UNARY[type(sign)](_number(value)))
         case ast.Constant(value=value):
-            exponent = _number(value)
-        case _:
-            raise ValueError("the exponent of ** must be a number")
-    if abs(exponent) > MAX_EXPONENT:
-        raise ValueError(f"the exponent of ** must lie between -{MAX_EXPONENT} and {MAX_EXPONENT}")
-    return exponent
+            return _number(value)
+    raise ValueError("the exponent of ** must be a number")
 
 
 def _evaluate(node: ast.expr, values: Mapping[str, Any], functions: Functions) -> Any:
@@ -138,7 +142,7 @@ def _evaluate(node: ast.expr, values: Mapping[str, Any], functions: Functions) -
         case ast.UnaryOp(op=sign, operand=operand):
             return _UNARY[type(sign)](_evaluate(operand, values, functions))
         case ast.BinOp(left=left, op=ast.Pow(), right=right):
-            exponent = _exponent(right)
+            exponent = exponent_of(right)
             # whole exponents stay integers: negative bases are then fine on every kind of value
             power = int(exponent) if exponent.is_integer() else exponent
             return _evaluate(left, values, functions) ** power

@@ -12,6 +12,7 @@ from pydantic import BeforeValidator, Discriminator, Tag, model_validator
 
 from embedding.scene.messages import refusal
 from embedding.scene.part import Part, kind_under
+from embedding.scene.strain_energy import StrainEnergy
 from embedding.scene.units import LARGEST, NonNegativePressure, Number, Plain, PositivePressure, Pressure, Ratio
 
 
@@ -148,6 +149,7 @@ Material = Annotated[
     | Annotated[Yeoh, Tag("yeoh")]
     | Annotated[Gent, Tag("gent")]
     | Annotated[Ogden, Tag("ogden")]
-    | Annotated[StVenantKirchhoff, Tag("st-venant-kirchhoff")],
+    | Annotated[StVenantKirchhoff, Tag("st-venant-kirchhoff")]
+    | Annotated[StrainEnergy, Tag("strain-energy")],
     Discriminator(kind_under("law")),
 ]

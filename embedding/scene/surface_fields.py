@@ -60,7 +60,7 @@ class SurfaceField(Part):
 
     def __call__(self, x: Any, y: Any, z: Any, functions: Functions = FLOAT_FUNCTIONS) -> Any:
         """The SI value at a point in m; on other objects than floats pass their ``functions``."""
-        return self.factor * self.parsed(x, y, z, functions)
+        return self.factor * self.parsed(x, y, z, functions=functions)
 
     def value_at(self, point: Point) -> float:
         """The SI value at ``point`` in m; nan where it has none."""

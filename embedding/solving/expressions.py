@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from typing import Any
 
 import ngsolve
@@ -10,14 +9,7 @@ import ngsolve
 from embedding.geometry.reduction import Reduction
 from embedding.scene import Scales
 from embedding.scene.surface_fields import SurfaceField
-
-FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
-    "sin": ngsolve.sin,
-    "cos": ngsolve.cos,
-    "exp": ngsolve.exp,
-    "sqrt": ngsolve.sqrt,
-    "tanh": lambda a: 1 - 2 / (ngsolve.exp(2 * a) + 1),
-}
+from embedding.shell.functions import SYMBOLIC
 
 
 def over_surface(field: SurfaceField, reduction: Reduction, scales: Scales) -> Any:
@@ -25,7 +17,7 @@ def over_surface(field: SurfaceField, reduction: Reduction, scales: Scales) -> A
     x, y, z = (scales.length * c for c in (ngsolve.x, ngsolve.y, ngsolve.z))
     zero = ngsolve.CF(0.0)
     place = {"3d": (x, y, z), "axisymmetric": (x, zero, y), "plane-strain": (x, y, zero)}[reduction.name]
-    return ngsolve.CF(field(*place, FUNCTIONS))
+    return ngsolve.CF(field(*place, SYMBOLIC))
 
 
 def vector_at(field: Any, place: Any, reduction: Reduction, scales: Scales) -> Any:
@@ -37,7 +29,7 @@ def vector_at(field: Any, place: Any, reduction: Reduction, scales: Scales) -> A
         "axisymmetric": lambda: (x, zero, y),
         "plane-strain": lambda: (x, y, zero),
     }[reduction.name]()
-    a, b, c = (component(*three, FUNCTIONS) for component in field.components)
+    a, b, c = (component(*three, SYMBOLIC) for component in field.components)
     return ngsolve.CF({"3d": (a, b, c), "axisymmetric": (a, c), "plane-strain": (a, b)}[reduction.name])
 
 

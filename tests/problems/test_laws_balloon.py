@@ -20,10 +20,11 @@ MATERIALS = EVERY_LAW | {
     "mooney-rivlin, c2 / c1 = 1 / 10": "{law = 'mooney-rivlin', c1 = '50 kPa', c2 = '5 kPa'}",
     "mooney-rivlin, c2 / c1 = 1 / 7": f"{{law = 'mooney-rivlin', c1 = {7 / 16 * MU}, c2 = {MU / 16}}}",
 }
+GENT = ((1.39767326520, 1.25408146704), (4.08502297851, 0.712018906253))
 PER_MODULUS = {
     "neo-hookean": ((1.38308755427, 1.23946290240),),
     "mooney-rivlin, c2 / c1 = 1 / 10": ((1.47606984746, 1.35510686880), (3.14262133321, 1.14874772529)),
-    "gent": ((1.39767326520, 1.25408146704), (4.08502297851, 0.712018906253)),
+    "gent": GENT,
 }
 """Green and Adkins; Mooney and Rivlin's law in the form of Beatty, Gent's with Jm = 97.2."""
 IN_PASCAL = {
@@ -89,3 +90,15 @@ def test_tube_in_plane_strain(material: str) -> None:
     assert solution["stretch"][-1] > 1.05
     exact = [cylinder.membrane_pressure(float(stretch), ratio, law) for stretch in solution["stretch"]]
     assert solution["pressure_difference"] == pytest.approx(np.array(exact), rel=1e-8)
+
+
+def test_a_law_of_ones_own() -> None:
+    """Gent's law by its energy: the published limit points, and in 3D the same as by its name."""
+    own = "shell.material={law = 'strain-energy', expression = '-4860*log(1 - (I1 - 3)/97.2)', unit = 'kPa'}"
+    points = sphere_inflation.limit_points(sphere_inflation.run(own, FINE))
+    for point, (stretch, load) in zip(points, GENT, strict=True):
+        assert (point.stretch, point.load) == (pytest.approx(stretch, abs=1e-6), pytest.approx(load, abs=1e-7))
+    coarse = (SHORT, "model.reduction=3d", "discretisation.shell_size=10 mm", "discretisation.order=2")
+    found, named = sphere_inflation.run(own, *coarse), inflated("gent", *coarse)
+    for scalar in ("stretch", "pressure_difference", "elastic_energy"):
+        assert found[scalar] == pytest.approx(named[scalar], rel=1e-10)

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from embedding.scene import PressureField, parse_expression
-from embedding.scene.expression import MAX_DEPTH, MAX_LENGTH
+from embedding.scene.differentiation import derivative
+from embedding.scene.expression import FLOAT_FUNCTIONS, MAX_DEPTH, MAX_LENGTH
+from embedding.shell.functions import NUMERIC
 
 
 @pytest.mark.parametrize(
@@ -33,9 +35,8 @@ def test_values(text: str, value: float) -> None:
 
 
 def test_other_objects_than_floats() -> None:
-    functions = {"sin": np.sin, "cos": np.cos, "exp": np.exp, "sqrt": np.sqrt, "tanh": np.tanh}
     x = np.array([-0.2, 0.4])
-    result = parse_expression("2*x**2 + sin(x) - 1/(3 + y)")(x, 1.0, 0.0, functions)
+    result = parse_expression("2*x**2 + sin(x) - 1/(3 + y)")(x, 1.0, 0.0, functions=NUMERIC)
     np.testing.assert_allclose(result, 2 * x**2 + np.sin(x) - 0.25)
 
 
@@ -110,3 +111,36 @@ def test_refusals(text: str, reason: str) -> None:
 def test_long_but_allowed(text: str) -> None:
     value: Any = parse_expression(text)(1.0, 0.0, 0.0)
     assert value == pytest.approx(1.0)
+
+
+SMOOTH = (
+    "3", "x", "-x*y", "x/y - z", "x**3 + y**-2", "x**0.5*z", "x**0 + x**1 + x**-16", "sin(x*y)*cos(z)",
+    "exp(-x**2)/(1 + y)",
+    "log(x + y*z)", "sqrt(x)*tanh(y - x)", "+(x - 2*(y - 3*x))/(z*z)",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("text", SMOOTH)
+@pytest.mark.parametrize("name", ["x", "y", "z"])
+def test_derivatives(text: str, name: str) -> None:
+    """Against central differences, of second order in the step."""
+    expression, place = parse_expression(text), dict(x=0.7, y=1.3, z=0.4)
+    found = derivative(expression, name)(*place.values())
+    for step in (1e-3, 1e-4):
+        low, high = (expression(*{**place, name: place[name] + sign * step}.values()) for sign in (-1, 1))
+        assert (high - low) / (2 * step) == pytest.approx(found, rel=500 * step**2, abs=1e-9)
+
+
+def test_derivatives_of_all_functions_are_known() -> None:
+    for function in FLOAT_FUNCTIONS:
+        assert derivative(parse_expression(f"{function}(x)"), "y")(0.5, 0.0, 0.0) == 0.0
+        assert derivative(parse_expression(f"{function}(x)"), "x")(0.5, 0.0, 0.0) != 0.0
+
+
+def test_other_variables() -> None:
+    """A short expression in others than the place; its errors name them."""
+    assert parse_expression("I1*I2", ("I1", "I2"))(2.0, 3.0) == 6.0
+    with pytest.raises(ValueError, match='unknown name "x": known are I1, I2, pi'):
+        parse_expression("x", ("I1", "I2"))
+    with pytest.raises(ValueError, match="must be arithmetic in I1 and I2"):
+        parse_expression("I1;", ("I1", "I2"))

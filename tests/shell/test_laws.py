@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 from ngsolve import BND, CF, BilinearForm, GridFunction, Variation
 
-from embedding import Gent, MooneyRivlin, NeoHookean, Ogden, StVenantKirchhoff, Yeoh
+from embedding import Gent, MooneyRivlin, NeoHookean, Ogden, StrainEnergy, StVenantKirchhoff, Yeoh
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import TraceSpace, plane_mask
+from embedding.scene import parse_expression
 from embedding.shell.kinematics import Kinematics
-from embedding.shell.laws import GentLaw, KoiterLaw, Law, MooneyRivlinLaw, OgdenLaw, YeohLaw, law_of
+from embedding.shell.laws import GentLaw, KoiterLaw, Law, MooneyRivlinLaw, OgdenLaw, StrainEnergyLaw, YeohLaw, law_of
 from tests.forms import BODIES, Taylor, body, close_to, random_directions, set_on_shell, smooth
 
 LAWS: dict[str, Law] = {
@@ -23,6 +24,9 @@ LAWS: dict[str, Law] = {
     "gent": GentLaw(1.0, 20.0),
     "ogden": OgdenLaw((1.2, 0.01, -0.2), (1.3, 5.0, -2.0)),
     "st-venant-kirchhoff": KoiterLaw(2.6, 0.3),
+    "strain-energy": StrainEnergyLaw(
+        parse_expression("0.8*I1 + 0.48*log(I2) + 0.4*exp(0.1*(I1 - 3))", ("I1", "I2")), 0.5
+    ),
 }
 EACH = pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 NAMES = [name for name, law in LAWS.items() if law.incompressible]
@@ -66,6 +70,8 @@ def density(law: Law, first: float, second: float) -> float:
         case OgdenLaw():
             pairs = zip(law.moduli, law.exponents, strict=True)
             return float(sum(mu / alpha * ((stretches**alpha).sum() - 3) for mu, alpha in pairs))
+        case StrainEnergyLaw():
+            return float(0.4 * x + 0.24 * np.log((stretches**-2.0).sum() / 3) + 0.2 * (np.exp(0.1 * x) - 1))
         case KoiterLaw():
             strain, nu = (stretches[:2] ** 2 - 1) / 2, law.poisson
             stress = law.youngs / (1 - nu**2) * np.array([[1, nu], [nu, 1]]) @ strain
@@ -172,6 +178,9 @@ def test_a_material_in_units_of_a_stress() -> None:
     assert law_of(Yeoh(c1=3e4, c2=-1e3, c3=100), 1e4) == YeohLaw(3.0, -0.1, 0.01)
     assert law_of(Gent(shear_modulus=3e4, limit=50), 1e4) == GentLaw(3.0, 50.0)
     assert law_of(Ogden(moduli=(3e4, -2e4), exponents=(2, -1)), 1e4) == OgdenLaw((3.0, -2.0), (2.0, -1.0))
+    assert law_of(StrainEnergy(expression="2*I1", unit="kPa"), 1e4).principal_stresses(1.5, 1.2) == pytest.approx(
+        MooneyRivlinLaw(0.2).principal_stresses(1.5, 1.2)
+    )
     assert law_of(StVenantKirchhoff(youngs_modulus=3e4, poisson_ratio=0.2), 1e4) == KoiterLaw(3.0, 0.2)
 
 
@@ -183,6 +192,7 @@ def test_a_material_in_units_of_a_stress() -> None:
         Yeoh(c1=1e5, c2=-1e3, c3=100),
         Gent(shear_modulus=2e5, limit=50),
         Ogden(moduli=(2e5, -1e5), exponents=(1.5, -0.5)),
+        StrainEnergy(expression="100*I1 + 3*log(I2)", unit="kPa"),
         StVenantKirchhoff(youngs_modulus=5e5, poisson_ratio=0.25),
     ],
     ids=lambda material: material.law,

@@ -6,6 +6,7 @@ from embedding.shell.laws.koiter import KoiterLaw
 from embedding.shell.laws.law import IncompressibleLaw, Law
 from embedding.shell.laws.ogden import OgdenLaw
 from embedding.shell.laws.pieces import PiecewiseLaw, piecewise
+from embedding.shell.laws.strain_energy import StrainEnergyLaw
 
 __all__ = [
     "GentLaw",
@@ -15,6 +16,7 @@ __all__ = [
     "MooneyRivlinLaw",
     "OgdenLaw",
     "PiecewiseLaw",
+    "StrainEnergyLaw",
     "YeohLaw",
     "law_of",
     "piecewise",

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from embedding.scene import Gent, Material, MooneyRivlin, NeoHookean, Ogden, Yeoh
+from embedding.scene import Gent, Material, MooneyRivlin, NeoHookean, Ogden, StrainEnergy, Yeoh
 from embedding.shell.laws.invariants import GentLaw, MooneyRivlinLaw, YeohLaw
 from embedding.shell.laws.koiter import KoiterLaw
 from embedding.shell.laws.law import Law
 from embedding.shell.laws.ogden import OgdenLaw
+from embedding.shell.laws.strain_energy import StrainEnergyLaw
 
 
 def law_of(material: Material, stress: float) -> Law:
@@ -21,4 +22,6 @@ def law_of(material: Material, stress: float) -> Law:
         return GentLaw(material.shear_modulus / stress, material.limit)
     if isinstance(material, Ogden):
         return OgdenLaw(tuple(modulus / stress for modulus in material.moduli), material.exponents)
+    if isinstance(material, StrainEnergy):
+        return StrainEnergyLaw(material.energy, material.factor / stress)
     return KoiterLaw(material.youngs_modulus / stress, material.poisson_ratio)
