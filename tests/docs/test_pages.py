@@ -18,6 +18,7 @@ from problems import dielectric_balloon
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
+TYPED = ROOT / "docs" / "tutorials"  # by tests of their own
 STUDIES = ROOT / "docs" / "studies.md"
 
 
@@ -26,8 +27,8 @@ def blocks(page: Path, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL)
 
 
-SCENES = [page for page in PAGES if page != STUDIES and blocks(page, "toml")]
-SCRIPTS = [page for page in PAGES if page != STUDIES and blocks(page, "python")]
+SCENES = [page for page in PAGES if page not in (STUDIES, *TYPED.iterdir()) and blocks(page, "toml")]
+SCRIPTS = [page for page in PAGES if page not in (STUDIES, *TYPED.iterdir()) and blocks(page, "python")]
 
 
 def named(page: Path) -> str:
