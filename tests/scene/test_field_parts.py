@@ -58,7 +58,7 @@ NEITHER = "a conductor needs a voltage, a charge or a potential, another body it
         (lambda: Ambient(field="electric", relative_permittivity=0), "relative_permittivity: 0 is not allowed: must be greater than 0"),
         (lambda: Ambient(field="electric", applied_field={"expression": ["0", "0", "x"], "unit": "A/m"}), "applied_field.unit: A/m is not allowed: must be a unit of the electric field, such as V/m"),
         (lambda: Ambient(field="magnetic", applied_field={"expression": ["0", "0", "x"], "unit": "T"}), "applied_field.unit: T is not allowed: must be a unit of an electric or a magnetic field, such as kV/mm or kA/m"),
-        (lambda: Ambient(field="magnetic", applied_field={"expression": ["0", "0", "r"]}), 'applied_field.expression.2: r is not allowed: unknown name "r": known are x, y, z, pi, sin, cos, exp, sqrt, tanh'),
+        (lambda: Ambient(field="magnetic", applied_field={"expression": ["0", "0", "r"]}), 'applied_field.expression.2: r is not allowed: unknown name "r": known are x, y, z, pi, sin, cos, exp, log, sqrt, tanh'),
         (lambda: Ambient(field="electric", bodies=[{"kind": "ball"}]), 'bodies.0.kind: "ball" is not allowed: must be "sphere", "cylinder", "box" or "half-space"'),
         (lambda: Ambient(field="electric", bodies=[3]), 'bodies.0: 3 is not allowed: must be a table with kind = "sphere", "cylinder", "box" or "half-space"'),
     ],

@@ -91,7 +91,7 @@ def test_what_supports_hold() -> None:
         (lambda: Loads(surface_force=[1, 2]), "surface_force: [1, 2] is not allowed: must be a list of 3 components [x, y, z]"),
         (lambda: Loads(surface_force=[1, 2, "1 N"]), 'surface_force.2: 1 N is not allowed: "N" is a unit of mass * length / time ** 2: must be a pressure, such as "100 kPa"'),
         (lambda: Loads(surface_force={"expression": "x"}), "surface_force.expression: x is not allowed: must be a list of 3 expressions, one for each of x, y and z"),
-        (lambda: Loads(surface_force={"expression": ["x", "y", "w"]}), 'surface_force.expression.2: w is not allowed: unknown name "w": known are x, y, z, pi, sin, cos, exp, sqrt, tanh'),
+        (lambda: Loads(surface_force={"expression": ["x", "y", "w"]}), 'surface_force.expression.2: w is not allowed: unknown name "w": known are x, y, z, pi, sin, cos, exp, log, sqrt, tanh'),
         (lambda: Loads(surface_force={"expression": ["x", "y", True]}), "surface_force.expression.2: true is not allowed: must be text"),
         (lambda: Loads(surface_force={"expression": ["x", "y", "z"], "unit": "m"}), 'surface_force.unit: m is not allowed: "m" is a unit of length: must be a unit of pressure, such as kPa'),
         (lambda: Loads(gravity=[0, 0, "9.81 m/s"]), 'gravity.2: 9.81 m/s is not allowed: "m/s" is a unit of length / time: must be an acceleration, such as "9.81 m/s^2"'),
@@ -133,7 +133,7 @@ def test_a_conflict(shape: str, parts: dict[str, Any], line: str) -> None:
 @pytest.mark.parametrize(
     ("shape", "parts", "line"),
     [
-        (DISC, {"of_shell": {"thickness": {"expression": "w"}}}, 'shell.thickness.expression: w is not allowed: unknown name "w": known are x, y, z, pi, sin, cos, exp, sqrt, tanh'),
+        (DISC, {"of_shell": {"thickness": {"expression": "w"}}}, 'shell.thickness.expression: w is not allowed: unknown name "w": known are x, y, z, pi, sin, cos, exp, log, sqrt, tanh'),
         (DISC, {"of_shell": {"thickness": {"expression": "x", "unit": "kg"}}}, 'shell.thickness.unit: kg is not allowed: "kg" is a unit of mass: must be a unit of length, such as mm'),
         (DISC, {"of_shell": {"thickness": {"expression": "1e-6/y**2"}}}, "shell.thickness.expression: 1e-6/y**2 is not allowed: it has no finite value at x = 0 m, y = 0 m, z = 0 m"),
         (DISC, {"of_shell": {"thickness": {"expression": "0.001 - 0.1*y"}}}, "shell.thickness.expression: 0.001 - 0.1*y is not allowed: must be greater than 0, and is -0.001 m at x = 0 m, y = 0.02 m, z = 0 m"),

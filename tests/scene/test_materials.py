@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from embedding.scene import Gent, Ogden, Scene, StVenantKirchhoff, Yeoh
+from embedding.scene import Gent, Ogden, Scene, StrainEnergy, StVenantKirchhoff, Yeoh
 from tests.scene.samples import refusals, shell
 
 
@@ -28,6 +28,12 @@ from tests.scene.samples import refusals, shell
         (lambda: Ogden(moduli=[1, 2], exponents=[2, -3]), "moduli: [1.0, 2.0] is not allowed: the shear modulus, half the sum of moduli times exponents, is -2 Pa and must be positive"),
         (lambda: StVenantKirchhoff(youngs_modulus="2 GPa", poisson_ratio=0.6), "poisson_ratio: 0.6 is not allowed: must be greater than -1 and at most 0.5"),
         (lambda: StVenantKirchhoff(youngs_modulus="2 GPa", poisson_ratio=-1), "poisson_ratio: -1 is not allowed: must be greater than -1 and at most 0.5"),
+        (lambda: StrainEnergy(expression="x", unit="kPa"), 'expression: x is not allowed: unknown name "x": known are I1, I2, pi, sin, cos, exp, log, sqrt, tanh'),
+        (lambda: StrainEnergy(expression=3.0, unit="kPa"), "expression: 3.0 is not allowed: must be text"),
+        (lambda: StrainEnergy(expression="I1", unit="mm"), 'unit: mm is not allowed: "mm" is a unit of length: must be a unit of pressure, such as kPa'),
+        (lambda: StrainEnergy(expression="-I1"), "expression: -I1 is not allowed: the shear modulus at rest, 2 (dW/dI1 + dW/dI2) at I1 = I2 = 3, is -2 Pa and must be positive"),
+        (lambda: StrainEnergy(expression="log(I1 - 3)"), "expression: log(I1 - 3) is not allowed: the shear modulus at rest, 2 (dW/dI1 + dW/dI2) at I1 = I2 = 3, is nan Pa and must be positive"),
+        (lambda: StrainEnergy(expression="exp(1e9*I1)"), "expression: exp(1e9*I1) is not allowed: the shear modulus at rest, 2 (dW/dI1 + dW/dI2) at I1 = I2 = 3, is nan Pa and must be positive"),
     ],
 )  # fmt: skip
 def test_a_material(build: Any, line: str) -> None:
@@ -37,6 +43,7 @@ def test_a_material(build: Any, line: str) -> None:
 def test_shear_moduli() -> None:
     assert Yeoh(c1=1, c2=-0.1, c3=0.1).shear_modulus == 2.0
     assert Ogden(moduli=("0.63 MPa", 1200, -1e4), exponents=(1.3, 5, -2)).shear_modulus == pytest.approx(422500)
+    assert StrainEnergy(expression="(I1 - 3)**2 + 3*I1/4 + 3*log(I2)", unit="kPa").shear_modulus == 3500.0
     assert StVenantKirchhoff(youngs_modulus=3, poisson_ratio=0.5).shear_modulus == 1.0
 
 
@@ -47,6 +54,7 @@ def test_shear_moduli() -> None:
         {"law": "gent", "shear_modulus": "0.4 MPa", "limit": 97.2},
         {"law": "ogden", "moduli": ["0.63 MPa", "1.2 kPa", -1e4], "exponents": [1.3, 5, -2]},
         {"law": "st-venant-kirchhoff", "youngs_modulus": "210 GPa", "poisson_ratio": 0.3},
+        {"law": "strain-energy", "expression": "3*I1 + log(I2)/2", "unit": "kPa"},
     ],
     ids=lambda material: str(material["law"]),
 )

@@ -232,7 +232,7 @@ def test_errors_name_their_source(tmp_path: Path) -> None:
         "  shell.shape.radius: inf m is not allowed: must be finite",
         "  shell.thickness: nan m is not allowed: must be finite",
         '  shell.material: missing: must be a table with law = "neo-hookean", "mooney-rivlin", "yeoh", "gent", '
-        '"ogden" or "st-venant-kirchhoff"',
+        '"ogden", "st-venant-kirchhoff" or "strain-energy"',
     ]
     with pytest.raises(SceneError, match="^in memory: shell: missing"):
         Scene.from_toml('name = "x"', source="in memory")
