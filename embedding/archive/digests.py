@@ -21,8 +21,9 @@ Digest = npt.NDArray[np.uint8]
 TABLES = ("steps", "scalars", "vtk")
 GROWING = ("embedding/committed", "embedding/digest", *(f"embedding/{name}" for name in (
     *TABLES, "newton", "checkpoint", "finish")))  # fmt: skip
-CHANGING = ("NSteps", "run")
-"""Attributes that change while a run is written: they say no more than the number of steps, and who writes."""
+CHANGING = ("NSteps", "run", "DIMENSION_LIST", "REFERENCE_LIST")
+"""Attributes that change while a run is written, or from file to file: they say no more than the number of steps, who
+writes, and where in the file the scales of the axes are."""
 
 
 def digest_of(*parts: Any) -> Digest:
@@ -111,7 +112,8 @@ def _attributes(item: Any, place: str) -> Iterator[Any]:
         if name not in CHANGING:
             value = item.attrs[name]
             yield f"{place}@{name}"
-            yield value if isinstance(value, str) else np.asarray(value)
+            listed = isinstance(value, np.ndarray) and value.dtype.hasobject  # of texts
+            yield value if isinstance(value, str) else str(value.tolist()) if listed else np.asarray(value)
 
 
 def slot_digest(slot: Any) -> Digest:

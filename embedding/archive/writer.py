@@ -22,6 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from embedding.archive import layout, views
+from embedding.archive.axes import label_axes
 from embedding.archive.digests import damaged_rows, digest_of, fields_digest, record_digest, rows_digests, slot_digest
 from embedding.archive.file import reading
 from embedding.archive.lagrange import LagrangeBlock
@@ -125,6 +126,7 @@ class ArchiveWriter:
                 declared[field.block][field.name] = (field.unit, field.values.shape[1:])
             layout.create_fields(file, declared)
             self._add_origins(file["embedding"])
+            label_axes(file)
             file["embedding/digest"][...] = record_digest(file)
             self._step(file, record, fields, memory)
         self.committed = 1
@@ -144,6 +146,7 @@ class ArchiveWriter:
                 self._begin[name] = layout.add_mesh(file["VTKHDF"][name], block)
             layout.put(own["steps/rows_digest"], 0, list(rows_digests(own, 0, steps)))  # of more tables than before
             self._add_origins(own)
+            label_axes(file)
             file["embedding/digest"][...] = record_digest(file)
             self._step(file, record, fields, memory)
         self.committed, self._remeshed = self.committed + 1, False

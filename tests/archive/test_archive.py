@@ -163,6 +163,23 @@ def test_every_array_has_a_unit(run: Any) -> None:
     assert bare == []
 
 
+def test_every_axis_of_what_grows_has_a_name_and_a_scale(run: Any) -> None:
+    """For readers without this package: what a row of a table is, and its number."""
+    _, path, records = run
+    with h5py.File(path) as file:
+        for place, label in (("steps", "step"), ("scalars", "step"), ("newton", "Newton iteration")):
+            for name, dataset in file[f"embedding/{place}"].items():
+                assert dataset.dims[0].label == label
+                if name != "number":
+                    (scale,) = dataset.dims[0].values()
+                    assert scale.name == f"/embedding/{'newton' if place == 'newton' else 'steps'}/number"
+        steps = file["embedding/scalars/stretch"].dims[0][0]
+        assert steps[:4].tolist() == [record.number for record in records]
+        for block in file["VTKHDF/Assembly/Scene"]:
+            for dataset in file["VTKHDF"][block]["PointData"].values():
+                assert [axis.label for axis in dataset.dims][0] == "node, step after step"
+
+
 def test_a_repaired_archive_is_the_same(run: Any, tmp_path: Path) -> None:
     problem, path, records = run
     copy = tmp_path / "run.vtkhdf"
