@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple
 
 
@@ -50,6 +50,17 @@ class ArchiveError(EmbeddingError):
     """An archive that cannot be read, is not one of ours, or was never finished."""
 
     exit_code: ClassVar[int] = 2
+
+
+class DamageError(ArchiveError):
+    """An archive that was looked through and found damaged; ``details`` says what was found, as plain data."""
+
+    def __init__(self, message: str, details: Mapping[str, Any]) -> None:
+        self.details = dict(details)
+        super().__init__(message, details)
+
+    def __str__(self) -> str:
+        return str(self.args[0])
 
 
 class SolveError(EmbeddingError):

@@ -9,6 +9,8 @@ from typing import Any
 
 import h5py
 
+AXES = ("CLASS", "NAME", "DIMENSION_LABELS", "DIMENSION_LIST", "REFERENCE_LIST")
+"""Attributes that HDF5 makes for that."""
 STEP, ITERATION = "step", "Newton iteration"
 SCALES = {"steps/number": STEP, "newton/number": ITERATION}
 TABLES = {"steps": STEP, "scalars": STEP, "vtk": STEP, "newton": ITERATION}

@@ -15,15 +15,16 @@ import h5py
 import numpy as np
 import numpy.typing as npt
 
+from embedding.archive.axes import AXES
 from embedding.archive.layout import DIGESTS, mesh_of, table
 
 Digest = npt.NDArray[np.uint8]
 TABLES = ("steps", "scalars", "vtk")
 GROWING = ("embedding/committed", "embedding/digest", *(f"embedding/{name}" for name in (
     *TABLES, "newton", "checkpoint", "finish")))  # fmt: skip
-CHANGING = ("NSteps", "run", "DIMENSION_LIST", "REFERENCE_LIST")
-"""Attributes that change while a run is written, or from file to file: they say no more than the number of steps, who
-writes, and where in the file the scales of the axes are."""
+CHANGING = ("NSteps", "run", *AXES)
+"""Attributes that change while a run is written, or that only name axes, which HDF5 keeps without checksums: they say
+no more than the number of steps, who writes, and what the axes are."""
 
 
 def digest_of(*parts: Any) -> Digest:
@@ -98,7 +99,7 @@ def _static(group: Any, path: str) -> Iterator[Any]:
         yield from _attributes(item, place)
         yield f"{item.dtype} {item.shape[1:]}"
         if not _grows(place):
-            yield item.asstr()[()] if h5py.check_string_dtype(item.dtype) else item[...]
+            yield item[...]
 
 
 def _grows(place: str) -> bool:
@@ -110,10 +111,8 @@ def _grows(place: str) -> bool:
 def _attributes(item: Any, place: str) -> Iterator[Any]:
     for name in sorted(item.attrs):
         if name not in CHANGING:
-            value = item.attrs[name]
             yield f"{place}@{name}"
-            listed = isinstance(value, np.ndarray) and value.dtype.hasobject  # of texts
-            yield value if isinstance(value, str) else str(value.tolist()) if listed else np.asarray(value)
+            yield np.asarray(item.attrs[name])
 
 
 def slot_digest(slot: Any) -> Digest:

@@ -3,6 +3,7 @@ is useless."""
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -58,6 +59,21 @@ def opened_for_reading(path: Path, stack: ExitStack) -> Any:
             break
         time.sleep(PAUSE)
     return h5py.File(stack.enter_context(path.open("rb")), "r")
+
+
+def check_target(target: str | os.PathLike[str]) -> Path:
+    """Return ``target`` as a path if an archive can be written there.
+
+    Raises ArchiveError if it is a folder, if its folder does not exist, or if writing is not permitted.
+    """
+    path = Path(target)
+    if path.is_dir():
+        raise ArchiveError(f"{path}: is a folder; an archive needs the name of a file")
+    if not path.parent.is_dir():
+        raise ArchiveError(f"{path}: the folder {path.parent} does not exist")
+    if not os.access(path.parent, os.W_OK):
+        raise ArchiveError(f"{path}: no permission to write into the folder {path.parent}")
+    return path
 
 
 def check_signature(path: Path) -> None:

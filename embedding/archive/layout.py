@@ -20,8 +20,8 @@
 
 Rules that make it survive a kill at any moment (``writer.py`` keeps them): rows of a field start at a chunk
 of their own, so that no checksummed chunk of an old step is ever rewritten; every chunk index exists before
-the first commit; tables that share a chunk over steps carry no checksum; a new mesh is added to a copy of the
-file, which then takes its place.
+the first commit; tables that share a chunk over steps carry no checksum, but digests; a new mesh is added to a copy
+of the file, which then takes its place.
 """
 
 from __future__ import annotations
@@ -68,6 +68,19 @@ TOPOLOGY = PLACES[2:]
 """What VTKHDF asks of every step: where its mesh begins, counted in these; the last ones in a column."""
 
 
+def note(item: Any, name: str, text: str) -> None:
+    """Give a group or dataset a text as an attribute.
+
+    Of fixed length: HDF5 keeps texts of variable length in heaps without checksums, and reads damaged ones without end.
+    """
+    item.attrs[name] = np.bytes_(text.encode())
+
+
+def noted(item: Any, name: str) -> str:
+    """The text of an attribute."""
+    return bytes(item.attrs[name]).decode()
+
+
 def growable(
     group: Any,
     name: str,
@@ -89,7 +102,7 @@ def growable(
     dataset.resize(1, axis=0)
     dataset[0] = np.zeros(shape, dtype)
     dataset.resize(0, axis=0)
-    dataset.attrs["unit"] = unit
+    note(dataset, "unit", unit)
     return dataset
 
 
@@ -135,12 +148,12 @@ def create_record(file: Any, documents: Mapping[str, str], run: str) -> Any:
     """Make the group /embedding with its documents and empty tables."""
     record = file.create_group("embedding")
     record.attrs["schema"] = SCHEMA
-    record.attrs["run"] = run
+    note(record, "run", run)
     record["committed"] = counted(0)
     record["digest"] = np.zeros(DIGEST_SIZE, "u1")
     record.create_group("origins")
     for name, text in documents.items():
-        record[name] = text
+        record[name] = np.bytes_(text.encode() or b" ")
     for table, columns in (("steps", STEP_COLUMNS), ("newton", NEWTON_COLUMNS)):
         group = record.create_group(table)
         for name, (dtype, unit) in columns.items():
@@ -193,7 +206,7 @@ def add_origin(record: Any, memory: Any) -> None:
     group["text"] = np.frombuffer(text.encode(), "u1")
     group["numbers"] = numbers
     for name in ("text", "numbers"):
-        group[name].attrs["unit"] = "1"
+        note(group[name], "unit", "1")
 
 
 def create_blocks(file: Any, blocks: Mapping[str, LagrangeBlock]) -> None:
@@ -208,7 +221,7 @@ def create_blocks(file: Any, blocks: Mapping[str, LagrangeBlock]) -> None:
         for key, (data, unit) in _mesh(block).items():
             filters = {"compression": "gzip", "compression_opts": 1, "shuffle": True, "fletcher32": True}
             limits = (None, *data.shape[1:])
-            group.create_dataset(key, data=data, chunks=True, maxshape=limits, **filters).attrs["unit"] = unit
+            note(group.create_dataset(key, data=data, chunks=True, maxshape=limits, **filters), "unit", unit)
 
 
 def add_mesh(group: Any, block: LagrangeBlock) -> dict[str, int]:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from embedding.archive.digests import damaged_rows, digest_of, record_digest, slot_digest
 from embedding.archive.file import reading
-from embedding.archive.layout import NEWTON_COLUMNS, PLACES, SLOTS, STEP_COLUMNS, count_of, mesh_of, table
+from embedding.archive.layout import NEWTON_COLUMNS, PLACES, SLOTS, STEP_COLUMNS, count_of, mesh_of, noted, table
 from embedding.archive.memory import unpacked
 from embedding.archive.records import (
     UNFINISHED,
@@ -178,8 +178,9 @@ class Archive:
     @cached_property
     def scalar_units(self) -> dict[str, str]:
         """SI unit of every scalar."""
+        self._check_record()
         with reading(self.path) as file:
-            return {name: str(column.attrs["unit"]) for name, column in file["embedding/scalars"].items()}
+            return {name: noted(column, "unit") for name, column in file["embedding/scalars"].items()}
 
     def newton(self, step: int = -1) -> Newton:
         """All Newton iterations of a step."""
@@ -211,6 +212,7 @@ class Archive:
     @cached_property
     def blocks(self) -> tuple[str, ...]:
         """Names of the blocks: "shell", and with a field "outside" and "inside"."""
+        self._check_record()
         with reading(self.path) as file:
             return tuple(file["VTKHDF/Assembly/Scene"])
 
@@ -268,7 +270,7 @@ class Archive:
     def _text(self, name: str) -> str:
         self._check_record()
         with reading(self.path) as file:
-            return str(file["embedding"][name].asstr()[()])
+            return bytes(file["embedding"][name][()]).decode()
 
     def _json(self, name: str) -> Any:
         return json.loads(self._text(name))
@@ -294,7 +296,7 @@ class ArchivedBlock:
             nodes = int(group["Offsets"][1])
             self.cells: npt.NDArray[np.int64] = group["Connectivity"][rows["ConnectivityId"]].reshape(-1, nodes)
             data = group.get("PointData", {})
-            self.units: dict[str, str] = {field: str(column.attrs["unit"]) for field, column in data.items()}
+            self.units: dict[str, str] = {field: noted(column, "unit") for field, column in data.items()}
 
     @property
     def fields(self) -> tuple[str, ...]:

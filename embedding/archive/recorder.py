@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from embedding.archive.file import check_target
 from embedding.archive.lagrange import LagrangeBlock
-from embedding.archive.writer import ArchiveWriter, SampledField, check_target
+from embedding.archive.writer import ArchiveWriter, SampledField
 from embedding.solving.events import Listener
 
 if TYPE_CHECKING:

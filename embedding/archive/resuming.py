@@ -33,6 +33,8 @@ def resumable(path: str | os.PathLike[str]) -> Archive:
         raise ArchiveError(f"{path}: the run is finished: there is nothing to resume")
     if not len(archive):
         raise ArchiveError(f"{path}: no step was accepted: there is nothing to resume from. Solve the scene again")
+    if not found.resumable:
+        raise ArchiveError(f"{path}: was saved from a damaged archive, without what a run goes on from")
     then, now = archive.versions, versions()
     changed = [f"{name} {old} then, {now.get(name)} now" for name, old in then.items() if now.get(name) != old]
     if changed:

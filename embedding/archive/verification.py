@@ -68,7 +68,12 @@ def verify(path: str | os.PathLike[str]) -> Verification:
     """
     source = Path(path)
     with reading_what_is_left(source) as (file, damages):
-        return _Check(source, file, damages).verification()
+        return verified(source, file, damages)
+
+
+def verified(path: Path, file: Any, damages: list[str]) -> Verification:
+    """:func:`verify` of what :func:`reading_what_is_left` has opened."""
+    return _Check(path, file, list(damages)).verification()
 
 
 @contextmanager
@@ -151,7 +156,8 @@ class _Check:
         for name, damaged in (("rows", rows), ("fields", [k for k in fields if k not in rows])):
             if damaged:
                 self.damages.append(f"{name} of {_listed(damaged)}")
-        resumable = bool(steps) and self._holds(f"the checkpoint of step {steps}", lambda: self._slot_holds(steps))
+        kept = bool(steps) and self._holds(f"the checkpoint of step {steps}", lambda: self._slot_holds(steps))
+        resumable = kept and int(self._slot(steps)["extent"][0]) == steps
         self._holds("how the run ended", self._finish_holds)
         if record:
             self._holds("what viewers take for the number of steps", lambda: self._views_hold(steps))
@@ -204,9 +210,12 @@ class _Check:
             return False
 
     def _slot_holds(self, steps: int) -> bool:
-        place = f"embedding/checkpoint/{SLOTS[steps % 2]}"
-        slot = self.file[place]
-        return int(slot["extent"][0]) == steps and _same(slot_digest(slot), place, self.file)
+        """What is saved of a damaged archive may have none: then the slot is empty."""
+        slot = self._slot(steps)
+        return int(slot["extent"][0]) in (0, steps) and bool(np.array_equal(slot_digest(slot), slot["digest"][...]))
+
+    def _slot(self, steps: int) -> Any:
+        return self.file["embedding/checkpoint"][SLOTS[steps % 2]]
 
     def _finish_holds(self) -> bool:
         finish = self.file["embedding/finish"]

@@ -24,7 +24,7 @@ import numpy.typing as npt
 from embedding.archive import layout, views
 from embedding.archive.axes import label_axes
 from embedding.archive.digests import damaged_rows, digest_of, fields_digest, record_digest, rows_digests, slot_digest
-from embedding.archive.file import reading
+from embedding.archive.file import check_target, reading
 from embedding.archive.lagrange import LagrangeBlock
 from embedding.archive.memory import packed
 from embedding.archive.repair import rewrite
@@ -258,7 +258,7 @@ class ArchiveWriter:
         the run."""
         try:
             with h5py.File(path, mode, libver=layout.LIBVER, locking=False) as file:
-                if mode == "r+" and ("embedding" not in file or file["embedding"].attrs["run"] != self._run):
+                if mode == "r+" and ("embedding" not in file or layout.noted(file["embedding"], "run") != self._run):
                     raise ArchiveError(f"{path}: another run has replaced the archive of this one")
                 yield file
         except (OSError, RuntimeError) as error:
@@ -274,21 +274,6 @@ class ArchiveWriter:
             views.write_views(path, blocks)
         except OSError as error:
             raise ArchiveError(f"{path}: cannot write the archive: {error}") from error
-
-
-def check_target(target: str | os.PathLike[str]) -> Path:
-    """Return ``target`` as a path if an archive can be written there.
-
-    Raises ArchiveError if it is a folder, if its folder does not exist, or if writing is not permitted.
-    """
-    path = Path(target)
-    if path.is_dir():
-        raise ArchiveError(f"{path}: is a folder; an archive needs the name of a file")
-    if not path.parent.is_dir():
-        raise ArchiveError(f"{path}: the folder {path.parent} does not exist")
-    if not os.access(path.parent, os.W_OK):
-        raise ArchiveError(f"{path}: no permission to write into the folder {path.parent}")
-    return path
 
 
 def _synchronise(file: Any) -> None:

@@ -71,6 +71,30 @@ def run(
 
 
 @app.command
+def resume(
+    archive: ArchiveFile,
+    /,
+    *,
+    as_json: AsJson = False,
+    progress: Annotated[bool, Parameter(help="Show the progress on standard error.")] = True,
+) -> None:
+    """Go on with a run that was killed, interrupted or failed, from its last accepted step, in the same archive.
+
+    With the same versions, threads and machine everything comes out as it would have without the interruption.
+    """
+    from embedding.api import resume as go_on
+    from embedding.cli.interrupts import Interrupts
+    from embedding.cli.output import warnings_told
+
+    with Interrupts() as interrupts, warnings_told():
+        solution = go_on(archive, progress=progress, listeners=[interrupts])
+    if as_json:
+        print_json(solution_summary(solution))
+    else:
+        print_solution(solution, None)
+
+
+@app.command
 def explain(scene: SceneFile, /, *, overrides: Overrides = (), as_json: AsJson = False) -> None:
     """Say what will be modelled, what is left out and why, without solving anything."""
     from embedding.scene import load_scene
@@ -98,6 +122,40 @@ def info(archive: ArchiveFile, /, *, as_json: AsJson = False) -> None:
         print_json(archive_summary(opened))
     else:
         print_archive(opened)
+
+
+@app.command
+def verify(
+    archive: ArchiveFile,
+    /,
+    *,
+    save: Annotated[Path | None, Parameter(help="Write the steps that are whole into this archive.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Compare everything in an archive with its checksums: is it what its run wrote, and can the run go on?
+
+    Exit code 2 if it is damaged; the message says what is, and which steps can be saved.
+    """
+    if save is not None:
+        check_output("--save", save, ".vtkhdf")
+
+    from embedding.archive import salvage
+    from embedding.archive import verify as look
+    from embedding.cli.info import verification_summary
+    from embedding.errors import DamageError
+
+    found = look(archive)
+    summary = verification_summary(found)
+    if save is not None:
+        salvage(archive, save)
+        summary["saved"] = save
+    if not found.sound:
+        saved = f". They are in {save}" if save is not None else ""
+        raise DamageError(found.message + saved, summary)
+    if as_json:
+        print_json(summary)
+    else:
+        print(found.message)
 
 
 @app.command

@@ -10,7 +10,7 @@ from cyclopts import CycloptsError
 
 from embedding.cli.commands import app
 from embedding.cli.output import print_json
-from embedding.errors import EmbeddingError, SceneError, SolveError
+from embedding.errors import DamageError, EmbeddingError, SceneError, SolveError
 
 BAD_INPUT, INTERRUPTED, DEFECT = 2, 130, 1
 DEBUG = "EMBEDDING_DEBUG"
@@ -31,6 +31,8 @@ def enter(arguments: list[str]) -> int:
         return _leave(error.exit_code, report, as_json)
     except SolveError as error:
         return _solve_failed(error, as_json)
+    except DamageError as error:
+        return _leave(error.exit_code, {"kind": "archive", "message": str(error), **error.details}, as_json)
     except EmbeddingError as error:
         kind = type(error).__name__.removesuffix("Error").lower()
         return _leave(error.exit_code, {"kind": kind, "message": str(error)}, as_json)

@@ -11,7 +11,7 @@ from rich.table import Table
 from embedding.cli.output import console, cost_line, critical_rows, error_line, number, print_rows, without_noise, words
 
 if TYPE_CHECKING:
-    from embedding.archive import Archive
+    from embedding.archive import Archive, Verification
 
 #: Scalars worth a column for people, in this order; the later ones are left out where they are zero or unknown.
 COLUMNS = ("stretch",)
@@ -39,6 +39,11 @@ def archive_summary(archive: Archive) -> dict[str, Any]:
         "versions": archive.versions,
         "scene": archive.scene,
     }
+
+
+def verification_summary(found: Verification) -> dict[str, Any]:
+    """What was found in an archive, as plain data."""
+    return {"archive": found.path, "sound": found.sound, **{k: v for k, v in vars(found).items() if k != "path"}}
 
 
 def print_archive(archive: Archive) -> None:

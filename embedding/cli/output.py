@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+import sys
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +25,19 @@ NOISE = 1e-12
 def print_json(value: Mapping[str, Any]) -> None:
     """Print one JSON object on standard output; numbers that JSON cannot hold (nan, inf) become null."""
     print(json.dumps(_plain(value), indent=2, allow_nan=False))
+
+
+@contextmanager
+def warnings_told() -> Iterator[None]:
+    """Warnings within are lines for people on standard error."""
+
+    def tell(message: Warning | str, *_: Any, **__: Any) -> None:
+        print(f"warning: {message}", file=sys.stderr)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("default", UserWarning)
+        warnings.showwarning = tell
+        yield
 
 
 def print_rows(rows: Iterable[tuple[str, str]]) -> None:
