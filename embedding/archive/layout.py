@@ -161,11 +161,16 @@ def create_record(file: Any, documents: Mapping[str, str], run: str) -> Any:
     for name in DIGESTS:
         growable(record["steps"], name, "u1", "1", shape=(DIGEST_SIZE,))
     record.create_group("scalars")
+    create_finish(record)
+    return record
+
+
+def create_finish(record: Any) -> None:
+    """Where it will be said how the run ended."""
     finish = record.create_group("finish")
     growable(finish, "json", "u1", "1", chunk=4096)
     finish["length"] = counted(0)
     finish["digest"] = np.zeros(DIGEST_SIZE, "u1")
-    return record
 
 
 def counted(count: int) -> npt.NDArray[np.int64]:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 import h5py
 import numpy as np
 
+from embedding.archive import layout
 from embedding.archive.digests import slot_digest
 from embedding.archive.file import check_target, reading
 from embedding.archive.layout import LIBVER, SLOTS, count_of, counted, growable, mesh_of, table, to_disk
@@ -40,58 +43,65 @@ def salvage(path: str | os.PathLike[str], target: str | os.PathLike[str]) -> int
     with reading_what_is_left(source) as (file, damages):
         found = verified(source, file, damages)
         if not found.saveable:
-            raise ArchiveError(found.message if found.whole else f"{found.message}. The first step is not whole")
-        write_copy(file, copy, found.saveable, ended=found.sound, salvaged=True)
+            raise ArchiveError(f"{found.message}. The first step is not whole" if found.whole else found.message)
+        with _written(copy) as new:
+            _Copy(file, found.saveable, ended=False, salvaged=True).group(file, new)
+            _save_memory(file["embedding"], new["embedding"], found.saveable)
         write_views(copy, list(file["VTKHDF/Assembly/Scene"]))
     return found.saveable
 
 
 def rewrite(source: Path, new_run: str | None = None) -> int:
     """:func:`repair`; with ``new_run``, by whose name the run goes on, as an archive without an end."""
-    with reading(source) as old:
+    with reading(source) as old, _written(source) as new:
         steps = count_of(old["embedding/committed"])
-        write_copy(old, source, steps, new_run=new_run, ended=new_run is None)
+        _Copy(old, steps, new_run, ended=new_run is None).group(old, new)
+        if new_run is not None:
+            new["embedding/finish/length"][...] = counted(0)
     return steps
 
 
-def write_copy(
-    old: Any, target: Path, steps: int, *, new_run: str | None = None, ended: bool = True, salvaged: bool = False
-) -> None:
-    """Write the first ``steps`` of the open archive ``old`` to ``target``, whole or not at all; how the run ended
-    belongs to it if it is ``ended``. ``new_run`` is the name of a run that goes on there. Rows that cannot be read are
-    zeros in what is ``salvaged``: nothing that counts is among them.
-
-    Raises ArchiveError if the copy cannot be written.
-    """
+@contextmanager
+def _written(target: Path) -> Iterator[Any]:
+    """A new HDF5 file that becomes ``target`` when it is written, whole or not at all. Raises ArchiveError."""
     temporary = target.with_name(f"{target.name}.partial")
     try:
         with h5py.File(temporary, "w", libver=LIBVER, locking=False) as new:
-            _Copy(old, steps, new_run, ended=ended, salvaged=salvaged).group(old, new)
-            own = new["embedding"]
-            own["committed"][...] = counted(steps)
-            if not ended:
-                own["finish/length"][...] = counted(0)
-            if steps:
-                _drop_other_checkpoint(own["checkpoint"][SLOTS[steps % 2]], steps)
+            yield new
         to_disk(temporary)
         os.replace(temporary, target)
         to_disk(target.parent)
-    except OSError as error:
+    except (OSError, RuntimeError) as error:
         raise ArchiveError(f"{target}: cannot be written: {error}") from error
 
 
-def _drop_other_checkpoint(slot: Any, steps: int) -> None:
-    """Empty the slot that belongs to the last step, unless it is that step's."""
-    if int(slot["extent"][0]) != steps or not np.array_equal(slot_digest(slot), slot["digest"][...]):
-        slot["extent"][...] = 0
-        slot["digest"][...] = slot_digest(slot)
+def _save_memory(old: Any, new: Any, steps: int) -> None:
+    """What a run goes on from after the last of so many ``steps``, if it is whole; how it ended is not known."""
+    layout.create_finish(new)
+    new["committed"][...] = counted(steps)
+    extent, text, numbers = np.zeros(3, "i8"), np.zeros(0, "u1"), np.zeros(0)
+    with suppress(Exception):  # where bytes are wrong, HDF5 and h5py fail in many ways
+        slot = old["checkpoint"][SLOTS[steps % 2]]
+        if int(slot["extent"][0]) == steps and np.array_equal(slot_digest(slot), slot["digest"][...]):
+            extent = slot["extent"][...]
+            text, numbers = slot["text"][: extent[1]], slot["numbers"][: extent[2]]
+    layout.create_checkpoint(new, len(numbers))
+    slot = new["checkpoint"][SLOTS[steps % 2]]
+    for name, rows in (("text", text), ("numbers", numbers)):
+        layout.put(slot[name], 0, rows)
+    slot["extent"][...] = extent
+    slot["digest"][...] = slot_digest(slot)
 
 
 class _Copy:
-    """Copies what counts of an open archive; datasets that are linked from several groups stay one
-    dataset."""
+    """Copies what counts of an open archive; datasets that are linked from several groups stay one dataset.
 
-    def __init__(self, file: Any, steps: int, new_run: str | None, *, ended: bool, salvaged: bool) -> None:
+    What is ``salvaged`` is without memory and end, and rows that cannot be read, none of which counts, are zeros.
+    """
+
+    def __init__(
+        self, file: Any, steps: int, new_run: str | None = None, *, ended: bool = True, salvaged: bool = False
+    ) -> None:
         self.new_run, self.committed, self.salvaged = new_run, steps, salvaged
         ends = file["embedding/steps/newton_end"] if self.committed else []
         self.newton = int(ends[self.committed - 1]) if self.committed else 0
@@ -116,6 +126,8 @@ class _Copy:
                 value = np.bytes_(self.new_run)
             new.attrs[name] = value
         for name in old:
+            if self.salvaged and old.name == "/embedding" and name in ("checkpoint", "finish"):
+                continue
             link = old.get(name, getlink=True)
             if isinstance(link, h5py.SoftLink):
                 new[name] = h5py.SoftLink(link.path)
@@ -129,18 +141,22 @@ class _Copy:
         place = h5py.h5o.get_info(old.id).addr
         if place in self.copied:
             group[name] = self.copied[place]
-        elif old.maxshape and old.maxshape[0] is None:
+        elif old.maxshape and old.maxshape[0] is None and not self.is_mesh(group):
             self.copied[place] = self.table(old, group, name)
         else:
             old.file.copy(old, group, name)
             self.copied[place] = group[name]
 
+    @staticmethod
+    def is_mesh(group: Any) -> bool:
+        """Does the ``group`` hold meshes, which count as a whole?"""
+        place = group.name.split("/")
+        return place[1] == "VTKHDF" and len(place) == 3
+
     def rows(self, place: list[str]) -> int:
         """How many rows count of a dataset that grows in the group at ``place``."""
         if place[-1] == "PointData":
             return self.ends[place[-2]]
-        if place[1] == "VTKHDF" and len(place) == 3:
-            return sys.maxsize  # meshes
         if place[-2] == "checkpoint":
             return sys.maxsize
         return {"newton": self.newton, "finish": self.finish}.get(place[-1], self.committed)
