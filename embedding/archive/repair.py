@@ -13,6 +13,7 @@ import h5py
 import numpy as np
 
 from embedding.archive import layout
+from embedding.archive.axes import AXES, label_axes
 from embedding.archive.digests import slot_digest
 from embedding.archive.file import check_target, reading
 from embedding.archive.layout import LIBVER, SLOTS, count_of, counted, growable, mesh_of, table, to_disk
@@ -68,6 +69,7 @@ def _written(target: Path) -> Iterator[Any]:
     try:
         with h5py.File(temporary, "w", libver=LIBVER, locking=False) as new:
             yield new
+            label_axes(new)
         to_disk(temporary)
         os.replace(temporary, target)
         to_disk(target.parent)
@@ -119,12 +121,7 @@ class _Copy:
 
     def group(self, old: Any, new: Any) -> None:
         """Fill the group ``new`` with the attributes and members of ``old``."""
-        for name, value in old.attrs.items():
-            if name == "NSteps":
-                value = np.int64(self.committed)
-            elif name == "run" and self.new_run is not None:
-                value = np.bytes_(self.new_run)
-            new.attrs[name] = value
+        self.attributes(old, new)
         for name in old:
             if self.salvaged and old.name == "/embedding" and name in ("checkpoint", "finish"):
                 continue
@@ -136,6 +133,16 @@ class _Copy:
             else:
                 self.dataset(old[name], new, name)
 
+    def attributes(self, old: Any, new: Any) -> None:
+        """Copy the attributes; names of axes are made anew, as they refer to other places in the file."""
+        for name in old.attrs:
+            if name == "NSteps":
+                new.attrs[name] = np.int64(self.committed)
+            elif name == "run" and self.new_run is not None:
+                new.attrs[name] = np.bytes_(self.new_run)
+            elif name not in AXES:
+                new.attrs[name] = old.attrs[name]
+
     def dataset(self, old: Any, group: Any, name: str) -> None:
         """Copy a dataset, cut down to the rows that count, or link to the copy that exists already."""
         place = h5py.h5o.get_info(old.id).addr
@@ -144,7 +151,8 @@ class _Copy:
         elif old.maxshape and old.maxshape[0] is None and not self.is_mesh(group):
             self.copied[place] = self.table(old, group, name)
         else:
-            old.file.copy(old, group, name)
+            old.file.copy(old, group, name, without_attrs=True)
+            self.attributes(old, group[name])
             self.copied[place] = group[name]
 
     @staticmethod
@@ -173,7 +181,5 @@ class _Copy:
             except OSError:
                 if not self.salvaged:
                     raise
-        del new.attrs["unit"]
-        for key, value in old.attrs.items():
-            new.attrs[key] = value
+        self.attributes(old, new)
         return new

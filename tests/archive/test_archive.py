@@ -192,6 +192,9 @@ def test_a_repaired_archive_is_the_same(run: Any, tmp_path: Path) -> None:
             np.testing.assert_array_equal(new.block(name).field(field, 2), old.block(name).field(field, 2))
     new.verify()
     assert copy.stat().st_size < 1.2 * path.stat().st_size
+    with h5py.File(copy) as file:
+        axis = file["embedding/scalars/stretch"].dims[0]
+        assert axis.label == "step" and axis[0][:].tolist() == [1, 2, 3, 4]
 
 
 def test_a_running_archive_can_be_read_and_held_open(tmp_path: Path) -> None:
