@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from embedding.errors import ArchiveError, SolveError
 from embedding.scene import Scene
 from embedding.solving import Listener, Solution, run
+from embedding.solving.neighbour import Neighbour, run_from
 from embedding.solving.result import Result
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ def solve(
     *,
     archive: Name | None = None,
     resume: Name | None = None,
+    start: Name | None = None,
     throw: bool = True,
     progress: bool = False,
     listeners: Sequence[Listener] = (),
@@ -33,7 +35,9 @@ def solve(
 
     With ``archive`` every accepted step is written to that HDF5 file as it is found; with ``progress`` a display on
     standard error shows load, Newton history and time. ``listeners`` are told of everything besides. With ``resume``,
-    an archive of this very scene whose run ended early, go on with that run; see :func:`resume`.
+    an archive of this very scene whose run ended early, go on with that run; see :func:`resume`. With ``start``, the
+    archive of a scene that differs in loads or materials, go from its last state to the end of this scene's path; where
+    there is no way from there, as on another mesh, solve from rest, and ``solution.start`` says why.
 
     Raises:
         SceneError: the scene cannot be modelled.
@@ -51,7 +55,8 @@ def solve(
         from embedding.archive import Recorder
 
         recorder = Recorder(archive)
-    return _solved(scene, recorder, known, throw=throw, progress=progress, listeners=listeners)
+    neighbour = None if start is None or resume is not None else _last_state(start)
+    return _solved(scene, recorder, known, neighbour, throw=throw, progress=progress, listeners=listeners)
 
 
 def resume(
@@ -67,7 +72,7 @@ def resume(
 
     scene = open_archive(archive).scene_object()
     recorder, known = _resumed(archive, scene)
-    return _solved(scene, recorder, known, throw=throw, progress=progress, listeners=listeners)
+    return _solved(scene, recorder, known, None, throw=throw, progress=progress, listeners=listeners)
 
 
 def _resumed(path: Name, scene: Scene) -> tuple[Recorder, Kept]:
@@ -80,10 +85,22 @@ def _resumed(path: Name, scene: Scene) -> tuple[Recorder, Kept]:
     return Recorder.going_on(archive), kept(archive, scene)
 
 
+def _last_state(path: Name) -> Neighbour:
+    from embedding.archive import open_archive
+    from embedding.archive.resuming import kept
+
+    archive = open_archive(path)
+    if not len(archive):
+        raise ArchiveError(f"{path}: no step was accepted: there is no state to start from")
+    scene = archive.scene_object()
+    return Neighbour(scene, kept(archive, scene))
+
+
 def _solved(
     scene: Scene,
     recorder: Recorder | None,
     known: Kept | None,
+    neighbour: Neighbour | None,
     *,
     throw: bool,
     progress: bool,
@@ -95,7 +112,8 @@ def _solved(
             from embedding.view.progress import ProgressDisplay
 
             watching.append(stack.enter_context(ProgressDisplay()))
-        solution = run(scene, [*watching, *listeners], known)
+        everyone = [*watching, *listeners]
+        solution = run(scene, everyone, known) if neighbour is None else run_from(scene, neighbour, everyone)
     if recorder is not None:
         solution = replace(solution, archive=recorder.path)
         if solution.result is Result.INTERRUPTED and solution.steps:

@@ -63,6 +63,8 @@ class Solution:
     """The outcome of a solve, complete or not; ``solution["stretch"]`` is a scalar's history in SI units.
 
     ``iterations`` counts every Newton step, those of failed attempts and of looking for critical points included.
+    ``start`` is "rest", "neighbour" where the state of another run was started from, or "rest: ..." with the reason why
+    it could not be.
     """
 
     scene: Scene
@@ -76,6 +78,7 @@ class Solution:
     archive: Path | None = None
     critical_points: tuple[CriticalPoint, ...] = ()
     iterations: int = 0
+    start: str = "rest"
 
     def __getitem__(self, name: str) -> npt.NDArray[np.float64]:
         """History of the scalar ``name`` over the accepted steps.

@@ -15,7 +15,7 @@ from embedding.scene import Scene, SurfaceFile
 from embedding.scene.checks import cross_problems
 from embedding.scene.overrides import apply_overrides
 from embedding.scene.part import TOLERANT
-from embedding.studies.design import designed
+from embedding.studies.design import designed, neighbours
 from embedding.studies.parameters import column_value, number_at, override
 from embedding.studies.study import Study
 
@@ -26,7 +26,8 @@ DIGITS = 16
 class Case:
     """One row of a study: its parameters in SI units (text where they are none), its changes, its scene and its hash.
 
-    ``scene`` is None where the values, each allowed by itself, do not fit together; ``refusal`` says why.
+    ``scene`` is None where the values, each allowed by itself, do not fit together; ``refusal`` says why. ``before`` is
+    the number of the case from whose state this one starts, None for rest.
     """
 
     number: int
@@ -35,6 +36,7 @@ class Case:
     scene: Scene | None
     key: str
     refusal: str = ""
+    before: int | None = None
 
 
 def cases_of(study: Study) -> tuple[Case, ...]:
@@ -46,6 +48,7 @@ def cases_of(study: Study) -> tuple[Case, ...]:
     base = tomllib.loads(study.scene.to_toml())
     cases: list[Case] = []
     wrong: dict[Problem, None] = {}
+    previous = neighbours(study)
     for number, stated in enumerate(designed(study)):
         changes = tuple(override(path, value) for path, value in stated.items())
         scene, problems, fits = _scene(base, [*changes, f"solver.threads={study.limits.threads}"])
@@ -53,23 +56,27 @@ def cases_of(study: Study) -> tuple[Case, ...]:
             wrong |= dict.fromkeys(_renamed(problems, stated))
         at = study.scene if scene is None else scene
         values = {path: column_value(number_at(at, path), value) for path, value in stated.items()}
-        key = "" if scene is None else hash_of(scene)
-        cases.append(Case(number, values, changes, scene, key, "; ".join(map(str, problems))))
+        before = previous[number] if previous else None
+        while before is not None and cases[before].scene is None:
+            before = cases[before].before
+        key = "" if scene is None else hash_of(scene, "" if before is None else cases[before].key)
+        cases.append(Case(number, values, changes, scene, key, "; ".join(map(str, problems)), before))
     if wrong:
         raise SceneError(tuple(wrong))
     return tuple(cases)
 
 
-def hash_of(scene: Scene) -> str:
+def hash_of(scene: Scene, before: str = "") -> str:
     """Hash of everything that a scene states and its numbers depend on: neither its name nor its threads.
 
-    Of a shape from a file it holds the content of the file, not its name.
+    Of a shape from a file it holds the content of the file, not its name; ``before`` is the hash of the case that it
+    starts from.
     """
     table = scene.model_dump(mode="json", exclude={"name": True, "solver": {"threads"}})
     shape = scene.shell.shape
     if isinstance(shape, SurfaceFile):
         table["shell"]["shape"]["path"] = hashlib.sha256(Path(shape.path).read_bytes()).hexdigest()
-    text = json.dumps(table, sort_keys=True)
+    text = json.dumps(table, sort_keys=True) + before
     return hashlib.sha256(text.encode()).hexdigest()[:DIGITS]
 
 

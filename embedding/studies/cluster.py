@@ -11,10 +11,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from embedding.scene import Scene
 from embedding.studies.cases import Case
 from embedding.studies.errors import StudyError, require
-from embedding.studies.files import CaseFolder, StudyFolder, read_json, write_case
+from embedding.studies.files import CaseFolder, StudyFolder, clear_case, read_json
 from embedding.studies.pool import Record, death, late
 from embedding.studies.record import KILLED, RAISED, failure
 
@@ -102,7 +101,7 @@ def solve_on_worker(path: str, seconds: float | None) -> Record:
     done = read_json(folder.record)
     if done is not None:  # by a worker that was lost before it could tell
         return done
-    write_case(folder, Scene.from_toml(folder.scene.read_text(encoding="utf-8")))
+    clear_case(folder)
     command = [sys.executable, "-m", "embedding.studies.worker", path]
     # The pipe ends with this process, and the case with the pipe.
     with subprocess.Popen(command, stdin=subprocess.PIPE, env=_environment()) as process:

@@ -32,6 +32,18 @@ def designed(study: Study) -> list[dict[str, Any]]:
     return rows
 
 
+def neighbours(study: Study) -> list[int | None]:
+    """For each case of a continuation the number of the one before it along the parameter, None for the first ones;
+    empty for other studies. A number is always less than that of its case."""
+    design = study.design
+    if not isinstance(design, Grid) or design.along is None:
+        return []
+    counts = [len(study.parameters[axis[0]]) for axis in study.axes]
+    axis = next(number for number, paths in enumerate(study.axes) if design.along in paths)
+    stride = math.prod(counts[axis + 1 :])
+    return [number - stride if number // stride % counts[axis] else None for number in range(math.prod(counts))]
+
+
 def _sampled(study: Study, design: LatinHypercube) -> list[dict[str, Any]]:
     import numpy as np
     from scipy.stats import qmc

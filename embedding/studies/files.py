@@ -51,6 +51,11 @@ class CaseFolder:
         return self.path / "scene.toml"
 
     @property
+    def start(self) -> Path:
+        """The name of the archive from whose last state the case starts, where there is one."""
+        return self.path / "start.txt"
+
+    @property
     def archive(self) -> Path:
         """The archive."""
         return self.path / "run.vtkhdf"
@@ -113,13 +118,23 @@ class StudyFolder:
         return load_study(self.path / STUDY)
 
 
-def write_case(folder: CaseFolder, scene: Scene) -> None:
-    """An empty folder for a case that is about to be solved: what an earlier attempt left is removed."""
+def write_case(folder: CaseFolder, scene: Scene, start: Path | None = None) -> None:
+    """A folder for a case that is about to be solved: what an earlier attempt left is removed. ``start`` is the archive
+    from whose last state the case starts."""
     import shutil
 
     shutil.rmtree(folder.path, ignore_errors=True)
     folder.path.mkdir(parents=True)
+    if start is not None:
+        folder.start.write_text(os.fspath(start), encoding="utf-8")
     folder.scene.write_text(scene.to_toml(), encoding="utf-8")
+
+
+def clear_case(folder: CaseFolder) -> None:
+    """Remove what a lost attempt at a case left in its folder."""
+    for path in folder.path.iterdir():
+        if path not in (folder.scene, folder.start):
+            path.unlink()
 
 
 def write_whole(path: Path, text: str, sync: bool = True) -> None:

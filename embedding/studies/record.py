@@ -31,6 +31,8 @@ def record_of(solution: Solution) -> dict[str, Any]:
         "reason": "" if result.ok else f"{result.name}: {solution.message}",
         "states": states,
         "steps": len(steps),
+        "start": solution.start,
+        "iterations": solution.iterations,
         "estimated_error": None if solution.error is None else solution.error.value,
         "seconds": solution.cost.wall_seconds,
         "peak_memory_bytes": solution.cost.peak_memory_bytes,

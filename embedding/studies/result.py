@@ -29,7 +29,8 @@ class Row:
     """One case: its hash, parameters and quantities in SI units, and how it ended.
 
     ``status`` is "done", "diverged", "refused", "raised", "killed", "over time" or "missing"; ``reason`` says more.
-    Quantities that a case does not have are nan. ``changes`` are what ``embedding run --set`` takes.
+    Quantities that a case does not have are nan. ``start`` is "rest", "neighbour", or "rest: ..." with the reason why
+    it was not its neighbour's state; ``iterations`` are Newton's. ``changes`` are what ``embedding run --set`` takes.
     """
 
     case: str
@@ -37,6 +38,8 @@ class Row:
     quantities: dict[str, float]
     status: str
     reason: str
+    start: str
+    iterations: float
     seconds: float
     estimated_error: float
     changes: tuple[str, ...]
@@ -87,6 +90,8 @@ class StudyResult:
             **{name: [row.quantities[name] for row in rows] for name in self.quantities},
             "status": [row.status for row in rows],
             "reason": [row.reason for row in rows],
+            "start": [row.start for row in rows],
+            "iterations": [row.iterations for row in rows],
             "seconds": [row.seconds for row in rows],
             "estimated_error": [row.estimated_error for row in rows],
         }
@@ -186,17 +191,23 @@ def result_of(
 def _row(study: Study, case: Case, record: Mapping[str, Any]) -> Row:
     states, done = states_in(record), record["status"] == DONE
     quantities = {name: quantity.value(states, done) for name, quantity in study.wanted.items()}
-    seconds, error = record.get("seconds"), record.get("estimated_error")
     return Row(
         case.key,
         case.values,
         quantities,
         record["status"],
         record["reason"],
-        math.nan if seconds is None else float(seconds),
-        math.nan if error is None else float(error),
+        record.get("start", ""),
+        _number(record.get("iterations")),
+        _number(record.get("seconds")),
+        _number(record.get("estimated_error")),
         case.changes,
     )
+
+
+def _number(value: float | None) -> float:
+    """Null is nan."""
+    return math.nan if value is None else float(value)
 
 
 def _units(study: Study, cases: Sequence[Case]) -> dict[str, str]:
@@ -209,7 +220,7 @@ def _units(study: Study, cases: Sequence[Case]) -> dict[str, str]:
             number = number_at(scene, name)
             units[name] = number.unit or "1" if number else "1"
     units |= {name: scalar_unit(quantity.scalar, per_length) for name, quantity in study.wanted.items()}
-    return units | {"seconds": "s", "estimated_error": "1"}
+    return units | {"iterations": "1", "seconds": "s", "estimated_error": "1"}
 
 
 def _dtype(values: Sequence[Any]) -> type:

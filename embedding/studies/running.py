@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections import deque
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -54,7 +54,7 @@ def run_study(
         missing = sorted((case for case in wanted.values() if case not in known), key=lambda case: case.number)
         with StudyDisplay(study.name, len(wanted), len(known), quiet=not progress) as display:
             pool = _pool(study, home, workers, scheduler)
-            for case, record in _solved(home, missing, pool, display):
+            for case, record in _solved(home, missing, pool, display, Chain(home, cases, index)):
                 index.append({"case": case.key, "changes": list(case.changes), **record})
                 display.finished(case, record)
                 if record["status"] == DONE:
@@ -81,19 +81,44 @@ def _adopt(index: Index, home: StudyFolder, key: str) -> None:
 
 
 def _solved(
-    home: StudyFolder, missing: Sequence[Case], pool: Pool, display: StudyDisplay
+    home: StudyFolder, missing: Sequence[Case], pool: Pool, display: StudyDisplay, chain: Chain
 ) -> Iterator[tuple[Case, dict[str, Any]]]:
-    """Solve cases; yields each with its record as it ends."""
-    queue = deque(missing)
+    """Solve cases, each after the one that it starts from; yields each with its record as it ends."""
+    queue = list(missing)
     with pool:
         while queue or pool.running:
-            while queue and len(pool.running) < pool.capacity:
-                case = queue.popleft()
+            waiting = {case.number for case in (*queue, *pool.running)}
+            ready = [case for case in queue if case.before not in waiting]
+            for case in ready[: max(0, pool.capacity - len(pool.running))]:
+                queue.remove(case)
                 if case.scene is not None:
-                    write_case(home.case(case.key), case.scene)
+                    write_case(home.case(case.key), case.scene, chain.start(case))
                     pool.start(case)
-            yield from pool.ended()
+            for case, record in pool.ended():
+                if case.before is not None and record.get("start") == "rest":
+                    record["start"] = "rest: no case before it is done"
+                yield case, record
             display.refresh(home, pool.running)
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Which archive a case of a continuation starts from: that of the nearest case before it that is done."""
+
+    home: StudyFolder
+    cases: Sequence[Case]
+    index: Index
+
+    def start(self, case: Case) -> Path | None:
+        """None for a start from rest."""
+        before = case.before
+        while before is not None:
+            known = self.cases[before]
+            archive = self.home.case(known.key).archive
+            if self.index.records.get(known.key, {}).get("status") == DONE and archive.exists():
+                return archive
+            before = known.before
+        return None
 
 
 def _check_scalars(study: Study, record: dict[str, Any]) -> None:

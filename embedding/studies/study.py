@@ -19,7 +19,7 @@ from embedding.studies.quantities import Quantity, stated_quantities
 Count = Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=1024))]
 Seconds = Annotated[float, BeforeValidator(Number("time", "s", "10 min", above=0.0))]
 
-RESERVED = ("case", "status", "reason", "seconds", "estimated_error")
+RESERVED = ("case", "status", "reason", "start", "iterations", "seconds", "estimated_error")
 """Columns that every table has."""
 
 
@@ -38,10 +38,13 @@ class Grid(Part):
     """Every combination of the parameters' values; the last parameter varies fastest.
 
     The paths of a list in ``together`` are one parameter: they take their first values together, then the second ones.
+    ``along`` names the parameter of a continuation: cases that differ in it alone are a chain, each starting from the
+    state of the one before.
     """
 
     kind: Literal["grid"] = "grid"
     together: tuple[tuple[str, ...], ...] = ()
+    along: str | None = None
 
 
 class Rows(Part):
@@ -119,7 +122,19 @@ class Study(Part):
                 raise refusal(reason, field=field, value=values)
         if isinstance(self.design, Grid):
             self._together(self.design)
+            self._along(self.design)
         return self
+
+    def _along(self, design: Grid) -> None:
+        """Refuse a continuation along nothing, and what a case that has no path cannot tell."""
+        if design.along is None:
+            return
+        if design.along not in self.parameters:
+            raise refusal(f"{design.along} is no parameter of the study", field="design.along", value=design.along)
+        for name, quantity in self.wanted.items():
+            if quantity.place not in ("end", "last"):
+                reason = 'a case that starts from its neighbour has an end and no path: ask for it "at end"'
+                raise refusal(reason, field=f"quantities.{name}", value=self.quantities[name])
 
     def _together(self, design: Grid) -> None:
         """Refuse groups of parameters that cannot go together."""

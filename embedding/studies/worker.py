@@ -45,7 +45,8 @@ def outcome(folder: CaseFolder, progress: Progress) -> dict[str, Any]:
 
     try:
         scene = Scene.from_toml(folder.scene.read_text(encoding="utf-8"))
-        return record_of(solve(scene, archive=folder.archive, throw=False, listeners=[progress]))
+        start = folder.start.read_text(encoding="utf-8") if folder.start.exists() else None
+        return record_of(solve(scene, archive=folder.archive, start=start, throw=False, listeners=[progress]))
     except SceneError as error:
         return failure(REFUSED, str(error))
     except Exception as error:

@@ -17,10 +17,11 @@ from embedding.studies.cluster import solve_on_worker
 from embedding.studies.files import read_json
 from embedding.studies.index import read_index
 from tests.studies.samples import PRESSURE, keys, signals, study
+from tests.studies.test_continuation import along
 from tests.studies.test_running import KILLED, LATE, begun, check_rows, mixed, stretch
 
 distributed = pytest.importorskip("distributed")
-TABLE = ["case", PRESSURE, "stretch", "largest", "reached", "status", "reason"]
+TABLE = ["case", PRESSURE, "stretch", "reached", "status", "reason", "start", "iterations"]
 
 
 @pytest.fixture(scope="module")
@@ -36,10 +37,12 @@ def same(one: StudyResult, other: StudyResult) -> bool:
 
 
 def test_dask_gives_the_table_of_one_machine(cluster: Any, tmp_path: Path) -> None:
-    stated = study({PRESSURE: [500, "2 kPa"]})
+    """Of a continuation, whose cases start from each other's archives."""
+    stated = along(PRESSURE, {PRESSURE: [500, 600, "2 kPa"]})
     found = run_study(stated, tmp_path / "dask", scheduler=cluster.scheduler_address)
     here = run_study(stated, tmp_path / "here")
-    assert found.counts() == {"done": 1, "diverged": 1}
+    assert found.counts() == {"done": 2, "diverged": 1}
+    assert [row.start for row in found.rows] == ["rest", "neighbour", "neighbour"]
     assert same(found, here)
     assert same(open_study(tmp_path / "dask"), found)
     there, ours = (read_index(result.folder / "index.jsonl") for result in (found, here))

@@ -24,6 +24,7 @@ UNITS = {
     "stretch": "1",
     "largest": "1",
     "reached": "Pa",
+    "iterations": "1",
     "seconds": "s",
     "estimated_error": "1",
 }

@@ -180,6 +180,10 @@ WRONG = {
     'design = { kind = "grid", together = [["shell.thickness", "loads.pressure_bottom"]] }': "map.toml: "
     "parameters.loads.pressure_bottom: [1 kPa, 500, 2e3 Pa] is not allowed: there are 3 values, and 2 of shell.thickness; "
     "what goes together needs as many",
+    'design = { kind = "grid", along = "shell.thicknes" }': "map.toml: design.along: shell.thicknes is not allowed: "
+    "shell.thicknes is no parameter of the study",
+    'design = { kind = "grid", along = "shell.thickness" }\nquantities.most = "max of stretch"': "map.toml: quantities.most: "
+    'max of stretch is not allowed: a case that starts from its neighbour has an end and no path: ask for it "at end"',
     'parameters."shell.thickness" = "1 mm"': "map.toml: parameters.shell.thickness: 1 mm is not allowed: must be a list of values, "
     'such as ["0.5 mm", "1 mm"], or bounds { low = "0.5 mm", high = "2 mm" }',
     'parameters."shell.thickness" = { low = 1 }': "map.toml: parameters.shell.thickness: a table is not allowed: must be a list of values, "
