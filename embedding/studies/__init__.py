@@ -1,6 +1,5 @@
 """Studies: many cases of one scene, each solved in a process of its own, gathered in one table with units."""
 
-from embedding.studies import charts
 from embedding.studies.cases import Case, cases_of
 from embedding.studies.errors import StudyError
 from embedding.studies.files import load_study
@@ -21,7 +20,6 @@ __all__ = [
     "StudyError",
     "StudyResult",
     "cases_of",
-    "charts",
     "load_study",
     "open_study",
     "run_study",

@@ -14,7 +14,6 @@ import numpy.typing as npt
 from embedding.scene.units import unit_factor
 from embedding.studies.errors import StudyError, require
 from embedding.studies.record import DONE
-from embedding.view.labels import prefixed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -73,6 +72,8 @@ class Axis:
         column = np.array(self._column(result), dtype=float)
         si = result.units[self.column]
         if not self.unit or si == "1":
+            from embedding.view.labels import prefixed  # the pictures behind it are slow to load
+
             largest = float(np.nanmax(np.abs(column), initial=0.0))
             return (1.0, "") if si == "1" else prefixed(largest, si)
         try:

@@ -93,11 +93,11 @@ def test_which_case_is_before_which() -> None:
 
 def test_a_strip_bends_on(tmp_path: Path) -> None:
     """Over the field, in bending by tens of degrees, to the same elastica as from rest."""
-    stated = common.study("magnetic_strip", {"shell.remanence.0": [4], FIELD: [4, 5, 6, 7]})
+    stated = common.study("magnetic_strip", {"shell.remanence.0": [4], FIELD: [5, 6, 7]})
     fields = {name: getattr(stated, name) for name in ("scene", "parameters", "quantities")}
     warm = magnetic_strip.complete(run_study(Study(**fields, design=Grid(along=FIELD)), tmp_path / "warm"))
     cold = magnetic_strip.complete(run_study(stated, tmp_path / "cold"))
-    assert starts(warm) == ["rest"] + 3 * ["neighbour"]
+    assert starts(warm) == ["rest", "neighbour", "neighbour"]
     np.testing.assert_allclose(warm.columns()["deflection"], cold.columns()["deflection"], rtol=1e-6)  # float32
     assert np.all(magnetic_strip.relative(warm) < 3e-3)
     assert sum(row.iterations for row in warm.rows[1:]) < 0.3 * sum(row.iterations for row in cold.rows[1:])
