@@ -1,4 +1,4 @@
-"""The commands `embedding run|explain|info|plot|fit|study|table`: a thin layer over the library."""
+"""The command line, `embedding run|explain|info|...`: a thin layer over the library."""
 
 from __future__ import annotations
 

@@ -10,6 +10,8 @@ from cyclopts import App, Parameter
 from embedding import __version__
 from embedding.cli.files import UsageError, check_output, default_archive, whole_file
 from embedding.cli.output import print_json, print_solution, solution_summary
+from embedding.cli.plot import plot
+from embedding.cli.questions import balance, compare, integrals, probe
 
 app = App(
     name="embedding",
@@ -158,36 +160,9 @@ def verify(
         print(found.message)
 
 
-@app.command
-def plot(
-    archive: ArchiveFile,
-    /,
-    *,
-    out: Annotated[Path | None, Parameter(help="PNG file to write; default beside the archive.")] = None,
-    history: Annotated[bool, Parameter(negative="", help="Draw pressures and stretches over the steps.")] = False,
-    step: Annotated[int | None, Parameter(help="Step to draw, as `embedding info` numbers them.")] = None,
-) -> None:
-    """Draw a step of an archive, by default the last one, or the history of its steps."""
-    from embedding.archive import open_archive
-
-    if history and step is not None:
-        raise UsageError("--step: a history shows all steps; leave out one of --step and --history")
-    count = len(open_archive(archive))
-    if count == 0:
-        raise UsageError(f"{archive}: no step was accepted, so there is nothing to draw")
-    if step is not None and not 1 <= step <= count:
-        raise UsageError(f"--step: {step} is not allowed: the archive has steps 1 to {count}")
-    suffix = ".history.png" if history else ".png"
-    target = check_output("--out", archive.with_suffix(suffix) if out is None else out, ".png")
-
-    from embedding import view
-
-    with whole_file(target) as file:
-        if history:
-            view.history_plot(archive, file)
-        else:
-            view.picture(archive, file, step=-1 if step is None else step - 1)
-    print(target)
+app.command(plot)
+for question in (probe, integrals, balance, compare):
+    app.command(question)
 
 
 @app.command

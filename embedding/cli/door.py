@@ -20,9 +20,9 @@ def enter(arguments: list[str]) -> int:
     """Run one command; returns its exit code and has printed either its output or one error message."""
     as_json = "--json" in arguments
     try:
-        app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
+        code = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
         sys.stdout.flush()
-        return 0
+        return code if isinstance(code, int) else 0
     except CycloptsError as error:
         return _leave(BAD_INPUT, {"kind": "usage", "message": f"{error} (see embedding --help)"}, as_json)
     except SceneError as error:

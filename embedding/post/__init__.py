@@ -4,7 +4,7 @@ from embedding.post.balance import energy_balance
 from embedding.post.compare import Comparison, compare
 from embedding.post.flux import flux
 from embedding.post.integrals import integrals
-from embedding.post.probe import line, probe, probe_shell
+from embedding.post.probe import line, opened, probe, probe_shell
 from embedding.post.table import PostError, Table
 
 __all__ = [
@@ -16,6 +16,7 @@ __all__ = [
     "flux",
     "integrals",
     "line",
+    "opened",
     "probe",
     "probe_shell",
 ]

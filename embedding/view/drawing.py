@@ -15,6 +15,7 @@ from embedding.view.surface import Surface
 
 Floats = npt.NDArray[np.float64]
 Limits = tuple[float, float]
+Place = tuple[float, float, float]
 SHELL_COLOURS, FIELD_COLOURS = "YlOrRd", "GnBu"
 EDGE_COLOUR, LINE_COLOUR = "#22222a", "#24385e"
 VIEWS = {  # from where, and what is up
@@ -35,6 +36,14 @@ class Drawing:
     pixels: npt.NDArray[np.uint8]
     width: float
     height: float
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The part of space that an image shows: a ball."""
+
+    centre: Place
+    radius: float
 
 
 class Canvas:
@@ -117,15 +126,29 @@ class Canvas:
             placed.append(points)
         return placed
 
-    def draw(self) -> Drawing:
-        """Draw everything, cut the white border off, and close the scene."""
+    def draw(self, *, turned: bool = False, frame: Frame | None = None) -> Drawing:
+        """Draw everything, cut the white border off, and close the scene.
+
+        ``turned`` shows what lies below, as if all were turned over. With a ``frame`` the image shows that
+        part of space, border and all: the images of an animation lie on each other.
+        """
         position, up = VIEWS[self.view]
+        if turned:
+            position, up = (position[0], position[1], -position[2]), (-up[0], -up[1], -up[2])
         self._plotter.enable_parallel_projection()
         self._plotter.camera_position = [position, (0.0, 0.0, 0.0), up]
         self._plotter.reset_camera()
+        if frame is not None:
+            away = np.asarray(self._plotter.camera.position) - np.asarray(self._plotter.camera.focal_point)
+            self._plotter.camera.focal_point = frame.centre
+            self._plotter.camera.position = tuple(np.asarray(frame.centre) + away)
+            self._plotter.camera.parallel_scale = frame.radius
+            self._plotter.renderer.ResetCameraClippingRange()
         pixels = np.asarray(self._plotter.screenshot(None, return_img=True))
         metres = 2 * float(self._plotter.camera.parallel_scale) / pixels.shape[0]
         self._plotter.close()
+        if frame is not None:
+            return Drawing(pixels, metres * pixels.shape[1], metres * pixels.shape[0])
         used = pixels.min(axis=2) < WHITE
         rows, columns = (np.flatnonzero(used.max(axis=axis)) for axis in (1, 0))
         pixels = pixels[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]

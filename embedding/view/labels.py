@@ -21,7 +21,22 @@ NAMES = {
     "B": "flux density $|B|$",
     "energy_density": "field energy density",
     "phi": r"potential $\varphi$",
+    "D": "electric flux density $|D|$",
+    "B": "magnetic flux density $|B|$",
+    "t_t": "top face traction $|t_t|$",
+    "t_b": "bottom face traction $|t_b|$",
 }
+SCALARS = {
+    "stretch": "mean stretch",
+    "displacement": "displacement (root mean square)",
+    "pressure_difference": "inflating pressure $p_b - p_t$",
+    "pressure_top": "mean $p_t$",
+    "pressure_bottom": "mean $p_b$",
+    "factor_mechanical": "load factor",
+    "factor_field": "field factor",
+    "step": "accepted step",
+}
+"""Of scalars, where their own name does not say it."""
 
 
 def prefixed(size: float, unit: str) -> tuple[float, str]:
@@ -44,6 +59,15 @@ def quantity(size: float, unit: str) -> str:
 def label(name: str, unit: str) -> str:
     """Text beside an axis or a colour bar."""
     text = NAMES.get(name, name.replace("_", " "))
+    return _with_unit(text, unit)
+
+
+def scalar_label(name: str, unit: str) -> str:
+    """The same for a scalar of the steps."""
+    return _with_unit(SCALARS.get(name, name.replace("_", " ")), unit)
+
+
+def _with_unit(text: str, unit: str) -> str:
     return f"{text} [{unit}]" if unit else text
 
 

@@ -8,7 +8,6 @@ left out as a whole instead of being cut short.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +16,7 @@ from scipy.ndimage import distance_transform_edt
 
 Floats = npt.NDArray[np.float64]
 Flags = npt.NDArray[np.bool_]
+Place = tuple[float, float]
 STRIDE = 0.5  # of a step along a line, in cells of the raster
 APART = 0.6  # how close lines may come where they converge, relative to their spacing
 STRONG = 0.9  # from which part of the strongest free field on a line may start
@@ -45,50 +45,62 @@ def field_lines(raster: Raster, spacing: float) -> list[Floats]:
     free = _eroded(strength > 0)
     empty, crowded = np.ones(free.shape, bool), np.zeros(free.shape, bool)
     lines: list[Floats] = []
+    distance = -strength  # the first line starts where the field is strongest, others beside those that are there
+    follow = _Follower(directions)
     while free.any():
         strong = free & (strength >= STRONG * strength[free].max())
-        distance = distance_transform_edt(empty) if lines else -strength
         row, column = np.unravel_index(np.where(strong, distance, np.inf).argmin(), free.shape)
-        start = np.array([column, row], float)
-        backward, forward = (np.array(list(_traced(directions, start, sign))).reshape(-1, 2) for sign in (-1, 1))
-        line = np.concatenate([backward[::-1], start[None], forward])
-        _mark(free, start[None], spacing / 4, False)
+        start = (float(column), float(row))
+        backward, forward = (follow.traced(start, sign) for sign in (-1, 1))
+        line = np.array([*backward[::-1], start, *forward])
+        _mark(free, line[[len(backward)]], spacing / 4, False)
         cells = np.rint(line).astype(int)
         if crowded[cells[:, 1], cells[:, 0]].any() or len(line) * STRIDE < SHORTEST * spacing:
             continue
         lines.append(line)
         empty[cells[:, 1], cells[:, 0]] = False
+        distance = distance_transform_edt(empty)
         _mark(free, line, spacing, False)
         _mark(crowded, line, APART * spacing, True)
     return lines
 
 
-def _traced(directions: Floats, start: Floats, sign: int) -> Iterator[Floats]:
-    """Follow the field from ``start`` by the midpoint rule until it ends."""
-    place = start
-    for _ in range(int(2 * sum(directions.shape[:2]) / STRIDE)):
-        middle = place + sign * STRIDE / 2 * _interpolated(directions, place)
-        step = _interpolated(directions, middle)
-        if step @ step < 0.25:
-            return
-        place = place + sign * STRIDE * step
-        if not _inside(directions, place):
-            return
-        yield place
+class _Follower:
+    """Follows ``directions`` (rows, columns, 2) by the midpoint rule; on Python's own numbers, which for one point at a
+    time are several times faster than arrays."""
 
+    def __init__(self, directions: Floats) -> None:
+        self._rows: list[list[list[float]]] = directions.tolist()
+        self._last = directions.shape[1] - 1, directions.shape[0] - 1
+        self._longest = int(2 * sum(directions.shape[:2]) / STRIDE)
 
-def _inside(directions: Floats, place: Floats) -> bool:
-    return bool(0 <= place[0] <= directions.shape[1] - 1 and 0 <= place[1] <= directions.shape[0] - 1)
+    def traced(self, start: Place, sign: int) -> list[Place]:
+        """The places behind ``start`` until the field ends."""
+        (x, y), found = start, []
+        for _ in range(self._longest):
+            u, v = self._interpolated(x, y)
+            u, v = self._interpolated(x + sign * STRIDE / 2 * u, y + sign * STRIDE / 2 * v)
+            if u * u + v * v < 0.25:
+                break
+            x, y = x + sign * STRIDE * u, y + sign * STRIDE * v
+            if not (0 <= x <= self._last[0] and 0 <= y <= self._last[1]):
+                break
+            found.append((x, y))
+        return found
 
-
-def _interpolated(directions: Floats, place: Floats) -> Floats:
-    """Bilinear interpolation; zero outside."""
-    if not _inside(directions, place):
-        return np.zeros(2)
-    column, row = (min(int(p), n - 2) for p, n in zip(place, directions.shape[1::-1], strict=True))
-    s, t = place[0] - column, place[1] - row
-    a, b = directions[row, column : column + 2], directions[row + 1, column : column + 2]
-    return np.asarray((1 - t) * ((1 - s) * a[0] + s * a[1]) + t * ((1 - s) * b[0] + s * b[1]))
+    def _interpolated(self, x: float, y: float) -> Place:
+        """Bilinear interpolation; zero outside."""
+        if not (0 <= x <= self._last[0] and 0 <= y <= self._last[1]):
+            return 0.0, 0.0
+        column, row = min(int(x), self._last[0] - 1), min(int(y), self._last[1] - 1)
+        s, t = x - column, y - row
+        a, b = self._rows[row][column : column + 2]
+        c, d = self._rows[row + 1][column : column + 2]
+        wa, wb, wc, wd = (1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t
+        return (
+            wa * a[0] + wb * b[0] + wc * c[0] + wd * d[0],
+            wa * a[1] + wb * b[1] + wc * c[1] + wd * d[1],
+        )
 
 
 def _eroded(flags: Flags) -> Flags:

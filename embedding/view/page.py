@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO, TypeVar
 
 from embedding.view.drawing import Drawing, Limits
 from embedding.view.labels import label, prefixed, quantity
 
 DPI = 160
+Target = TypeVar("Target", Path, BinaryIO)
 INK, GREY = "#22222a", "#555560"
 LARGEST = (8.0, 6.3)  # of the drawing, in inches
 MARGIN, HEAD, FOOT = 0.4, 1.0, 0.75
@@ -39,8 +40,8 @@ class Page:
     scale: float
     note: str
 
-    def save(self, drawing: Drawing, output: Path) -> Path:
-        """Put everything on a page as large as it needs to be, and write it as a PNG file."""
+    def save(self, drawing: Drawing, output: Target, dpi: int = DPI) -> Target:
+        """Put everything on a page as large as it needs to be, and write it as a PNG file or into a stream."""
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
@@ -49,7 +50,7 @@ class Page:
         width = 2 * MARGIN + max(wide + BAR_COLUMN, LETTER * len(self.caption))
         body = max(LEAST_HEIGHT, high)
         height = HEAD + body + FOOT
-        figure = Figure(figsize=(width, height), dpi=DPI, facecolor="white")
+        figure = Figure(figsize=(width, height), dpi=dpi, facecolor="white")
         FigureCanvasAgg(figure)
         left = (width - BAR_COLUMN - wide) / 2
         bottom = FOOT + (body - high) / 2

@@ -5,22 +5,36 @@ from __future__ import annotations
 
 import os
 import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from embedding.archive import Archive, open_archive
-from embedding.view.drawing import FIELD_COLOURS, SHELL_COLOURS, Canvas, colour_limits
+from embedding.view.drawing import (
+    FIELD_COLOURS,
+    PIXELS,
+    SHELL_COLOURS,
+    Canvas,
+    Drawing,
+    Frame,
+    Limits,
+    colour_limits,
+)
 from embedding.view.labels import quantity, round_length
 from embedding.view.page import Bar, Page
 from embedding.view.rendering import require_rendering
-from embedding.view.section import cropped, sections, vector_field
-from embedding.view.surface import shell_surface
+from embedding.view.section import Section, cropped, sections, vector_field
+from embedding.view.surface import Surface, shell_surface
 
+VIEW = {"sphere": "meridian", "infinite-cylinder": "cross-section"}
+"""How shapes are looked at; all others are sheets."""
 REACH = 2.4  # how much of the ambient is shown, in sizes of the shell
 FIELD_FREE = 1e-3  # a side whose field is weaker than this part of the other's is left out
 MOVED = 0.02  # how far a shell must have moved, relative to its size, for its old outline to be shown
 BENT = 0.05  # how little a shell is stretched, relative to how far it has moved, for its displacement to be shown
+SPACED = 0.5  # the size that the spacing of lines in an animation is meant for, in radii of its frame
 ROUNDING = 1e-7  # relative to the scales of a run
 CAPTION = {
     "voltage": "voltage",
@@ -56,51 +70,113 @@ def picture(
     """
     require_rendering()
     opened = open_archive(archive)
-    number = opened.index(step)
-    shell_field = shell_field or _telling(opened, number)
-    kind = tomllib.loads(opened.scene)["shell"]["shape"]["kind"]
-    closed = kind == "sphere"
-    view = {"sphere": "meridian", "infinite-cylinder": "cross-section"}.get(kind, "sheet")
-    surface = shell_surface(opened, shell_field, number, turn=(0.0, 270.0) if closed else (0.0, 360.0))
-    across = surface.points[:, :2] if view == "cross-section" else surface.points - surface.centre
-    size = float(np.linalg.norm(across, axis=1).max())
-    unit = opened.block("shell").units[shell_field]
-    limits = colour_limits([surface.values], from_zero=shell_field == "u", noise=_noise(opened, unit))
-    canvas = Canvas(view)
-    edge = 0.004 * size if view == "sheet" else _edge_radius(opened, number, size)
-    canvas.shell(surface, limits, edge, quarter_cut=closed and opened.run["reduction"] == "3d")
-    moved = float(np.linalg.norm(opened.block("shell", number).field("u"), axis=1).max()) > MOVED * size
-    if moved:
-        canvas.outline(shell_surface(opened, shell_field, number, deformed=False), size)
-    bars = [Bar(SHELL_COLOURS, limits, shell_field, unit)]
-    if "outside" in opened.blocks:
-        bars.append(_add_ambient(canvas, opened, ambient_field, number, size, reach, lines))
-    title, note = opened.run["name"].replace("_", " "), "dashed: undeformed" if moved else ""
-    page = Page(title, _caption(opened, number), tuple(bars), round_length(size), note)
-    return page.save(canvas.draw(), Path(output))
+    view = StepView.of(opened, opened.index(step), shell_field, ambient_field, reach)
+    limits = view.limits([view])
+    return view.page(limits).save(view.draw(limits, lines), Path(output))
 
 
-def _telling(archive: Archive, step: int) -> str:
+@dataclass(frozen=True)
+class StepView:
+    """What a picture of one step shows: the deformed shell and, if there is a field, the planes of the ambient.
+
+    ``size`` is that of the deformed shell in m, ``planes`` the sides that have a field.
+    """
+
+    archive: Archive
+    step: int
+    shell_field: str
+    ambient_field: str | None
+    surface: Surface
+    size: float
+    planes: tuple[Section, ...]
+
+    @staticmethod
+    def of(
+        archive: Archive,
+        step: int,
+        shell_field: str | None,
+        ambient_field: str | None,
+        reach: float,
+        radius: float | None = None,
+    ) -> StepView:
+        """The view of a step; the ambient is shown out to ``reach`` sizes of the shell, or to a ``radius`` in m."""
+        kind = _kind(archive)
+        field = shell_field or telling(archive, step)
+        surface = shell_surface(archive, field, step, turn=(0.0, 270.0) if kind == "sphere" else (0.0, 360.0))
+        across = surface.points[:, :2] if VIEW.get(kind) == "cross-section" else surface.points - surface.centre
+        size = float(np.linalg.norm(across, axis=1).max())
+        if "outside" not in archive.blocks:
+            return StepView(archive, step, field, None, surface, size, ())
+        name = ambient_field or vector_field(archive.block("outside", step))
+        planes = [cropped(plane, radius or reach * size) for plane in sections(archive, name, step).values()]
+        strongest = max(plane.strength for plane in planes)
+        shown = tuple(plane for plane in planes if plane.strength >= FIELD_FREE * strongest)
+        return StepView(archive, step, field, name, surface, size, shown)
+
+    def limits(self, views: Sequence[StepView]) -> tuple[Limits, Limits | None]:
+        """Colours of the shell and of the ambient that suit all ``views``."""
+        shell = self.archive.block("shell", self.step).units[self.shell_field]
+        surfaces = [view.surface.values for view in views]
+        of_shell = colour_limits(surfaces, from_zero=self.shell_field == "u", noise=_noise(self.archive, shell))
+        if self.ambient_field is None:
+            return of_shell, None
+        unit = self.archive.block("outside", self.step).units[self.ambient_field]
+        parts = [plane.values for view in views for plane in view.planes]
+        return of_shell, colour_limits(parts, from_zero=True, noise=_noise(self.archive, unit))
+
+    @property
+    def moved(self) -> bool:
+        """Has the shell moved far enough for its undeformed outline to be shown?"""
+        u = self.archive.block("shell", self.step).field("u")
+        return float(np.linalg.norm(u, axis=1).max()) > MOVED * self.size
+
+    def draw(
+        self,
+        limits: tuple[Limits, Limits | None],
+        lines: bool,
+        frame: Frame | None = None,
+        pixels: tuple[int, int] = PIXELS,
+    ) -> Drawing:
+        """Draw the view, cropped, or in a ``frame`` on so many ``pixels``, with lines as far apart as suits it."""
+        kind = _kind(self.archive)
+        canvas = Canvas(VIEW.get(kind, "sheet"), size=pixels)
+        edge = 0.004 * self.size if kind not in VIEW else _edge_radius(self.archive, self.step, self.size)
+        cut = kind == "sphere" and self.archive.run["reduction"] == "3d"
+        canvas.shell(self.surface, limits[0], edge, quarter_cut=cut)
+        if self.moved:
+            canvas.outline(shell_surface(self.archive, self.shell_field, self.step, deformed=False), self.size)
+        for plane in self.planes:
+            with_lines = lines and plane.strength > 0
+            size = self.size if frame is None else SPACED * frame.radius
+            canvas.section(plane, limits[1] or (0.0, 1.0), size, with_lines)
+        return canvas.draw(frame=frame)
+
+    def page(self, limits: tuple[Limits, Limits | None]) -> Page:
+        """The page around the drawing."""
+        shell = self.archive.block("shell", self.step).units[self.shell_field]
+        bars = [Bar(SHELL_COLOURS, limits[0], self.shell_field, shell)]
+        if self.ambient_field is not None and limits[1] is not None:
+            unit = self.archive.block("outside", self.step).units[self.ambient_field]
+            bars.append(Bar(FIELD_COLOURS, limits[1], self.ambient_field, unit))
+        title, note = self.archive.run["name"].replace("_", " "), "dashed: undeformed" if self.moved else ""
+        return Page(title, caption_of(self.archive, self.step), tuple(bars), round_length(self.size), note)
+
+
+def is_closed(archive: Archive) -> bool:
+    """Is the shell shown with a quarter of it cut away?"""
+    return _kind(archive) == "sphere"
+
+
+def _kind(archive: Archive) -> str:
+    return str(tomllib.loads(archive.scene)["shell"]["shape"]["kind"])
+
+
+def telling(archive: Archive, step: int) -> str:
     """The stretch, or the displacement of a shell that is bent more than it is stretched."""
     shell = archive.block("shell", step)
     stretched = float(np.abs(shell.field("stretch", step) - 1.0).max())
     moved = float(np.linalg.norm(shell.field("u", step), axis=1).max()) / archive.scales.length
     return "u" if stretched < BENT * moved else "stretch"
-
-
-def _add_ambient(
-    canvas: Canvas, archive: Archive, field: str | None, step: int, size: float, reach: float, lines: bool
-) -> Bar:
-    """Add the planes of all sides that have a field; returns their common colour bar."""
-    name = field or vector_field(archive.block("outside"))
-    planes = [cropped(plane, reach * size) for plane in sections(archive, name, step).values()]
-    strongest = max(plane.strength for plane in planes)
-    planes = [plane for plane in planes if plane.strength >= FIELD_FREE * strongest]
-    unit = archive.block("outside").units[name]
-    limits = colour_limits([plane.values for plane in planes], from_zero=True, noise=_noise(archive, unit))
-    for plane in planes:
-        canvas.section(plane, limits, size, lines and strongest > 0)
-    return Bar(FIELD_COLOURS, limits, name, unit)
 
 
 def _edge_radius(archive: Archive, step: int, size: float) -> float:
@@ -120,7 +196,7 @@ def _noise(archive: Archive, unit: str) -> float:
     return ROUNDING * (size | {"V/m": scales.field, "A/m": scales.field}).get(unit, 1.0)
 
 
-def _caption(archive: Archive, step: int) -> str:
+def caption_of(archive: Archive, step: int) -> str:
     """Which step, and the scalars that say something about it."""
     parts = [f"step {step + 1} of {len(archive)}"]
     for name, words in CAPTION.items():

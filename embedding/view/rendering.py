@@ -49,9 +49,9 @@ def prepare() -> None:
         os.environ.setdefault(WINDOW, "vtkEGLRenderWindow")
 
 
-def require_packages() -> None:
-    """Raise RenderError, saying how to install them, if the packages that draw are missing."""
-    missing = [name for name in ("pyvista", "matplotlib") if importlib.util.find_spec(name) is None]
+def require_packages(*names: str) -> None:
+    """Raise RenderError, saying how to install them, if packages that draw are missing (default: all of them)."""
+    missing = [name for name in names or ("pyvista", "matplotlib") if importlib.util.find_spec(name) is None]
     if missing:
         raise RenderError(f"pictures need {' and '.join(missing)}: pip install 'embedding[pictures]'")
 

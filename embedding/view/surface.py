@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,22 +41,25 @@ def shell_surface(
     turn: tuple[float, float] = (0.0, 360.0),
     depth: float = 2.0,
     deformed: bool = True,
+    steps: Mapping[int, int] = STEPS,
+    turns: int = TURNS,
 ) -> Surface:
     """The shell of a step, coloured by ``field`` (the length of a vector), its mirror images
     included.
 
     ``turn`` holds the angles in degrees between which an axisymmetric shell is revolved about z; ``depth``
-    is the length of a cylinder along z in multiples of its radius.
+    is the length of a cylinder along z in multiples of its radius. ``steps`` are the small simplices along an edge of a
+    cell, by its dimension, ``turns`` the segments of a full turn.
     """
     block = archive.block("shell", step)
-    fine = Tessellation(block.cells, block.cell_type, block.order, STEPS[1 if block.cell_type == LINE else 2])
+    fine = Tessellation(block.cells, block.cell_type, block.order, steps[1 if block.cell_type == LINE else 2])
     points = fine.values(block.points)
     if deformed:
         points = points + fine.values(block.field("u", step))
     values = magnitude(fine.values(block.field(field, step)))
     reduction = archive.run["reduction"]
     if reduction == "axisymmetric":
-        return revolved(points, values, fine.simplices, turn)
+        return revolved(points, values, fine.simplices, turn, turns)
     if reduction == "plane-strain":
         length = depth * float(np.linalg.norm(points, axis=1).max())
         return mirrored(extruded(points, values, fine.simplices, length), archive.run["mirrors"])
@@ -68,10 +71,12 @@ def magnitude(values: Floats) -> Floats:
     return values if values.ndim == 1 else np.asarray(np.linalg.norm(values, axis=1))
 
 
-def revolved(points: Floats, values: Floats, lines: Integers, turn: tuple[float, float]) -> Surface:
+def revolved(
+    points: Floats, values: Floats, lines: Integers, turn: tuple[float, float], turns: int = TURNS
+) -> Surface:
     """Revolve segments of the half plane y = 0, x >= 0 about z, between two angles in degrees."""
     begin, end = (math.radians(angle) for angle in turn)
-    copies = max(2, round(TURNS * abs(end - begin) / (2 * math.pi))) + 1
+    copies = max(2, round(turns * abs(end - begin) / (2 * math.pi))) + 1
     angles = np.linspace(begin, end, copies)[:, None]
     radius, height = points[None, :, 0], np.broadcast_to(points[:, 2], (copies, len(points)))
     swept = np.stack([radius * np.cos(angles), radius * np.sin(angles), height], axis=2)

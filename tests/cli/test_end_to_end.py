@@ -144,3 +144,31 @@ def test_an_interrupt_keeps_the_accepted_steps(scene_file: Path) -> None:
     archive = open_archive(scene_file.parent / "small_balloon.vtkhdf")
     assert archive.result.name == "INTERRUPTED"
     assert 1 <= len(archive) < 5000
+
+
+def test_every_kind_of_plot(scene_file: Path, call: Call) -> None:
+    call("run", scene_file, "--no-progress", "--out", "mine.vtkhdf")
+    for kind, name in (("response", "mine.response.png"), ("faces", "mine.faces.png"), ("page", "mine.html")):
+        drawn = call("plot", "mine.vtkhdf", "--kind", kind)
+        assert (drawn.code, drawn.out) == (0, f"{name}\n"), drawn.err
+        assert (scene_file.parent / name).stat().st_size > 5_000
+    assert call("plot", "mine.vtkhdf", "--kind", "response", "--x", "volume_ratio", "--y", "stretch").code == 0
+    assert call("plot", "mine.vtkhdf", "--kind", "page", "--field", "p_b", "--out", "pb.html").code == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "part"),
+    [
+        (("--field", "colour"), "--field: no field 'colour' in the block shell; there are u, p_t, p_b, stretch"),
+        (("--ambient-field", "E"), "--ambient-field: no field 'E' in the block outside; nothing is meshed around"),
+        (("--kind", "response", "--x", "voltage"), "--x: no scalar 'voltage'; there are step,"),
+        (("--kind", "response", "--field", "u"), "--field: a response does not take it; it takes --x, --y"),
+        (("--kind", "slice"), "nothing is meshed around the shell, so there is no field to cut"),
+        (("--kind", "page", "--out", "x.png"), "--out: 'x.png' must end in '.html'"),
+        (("--reach", "0"), "--reach: 0 is not allowed: must be from 1 to 100"),
+    ],
+)
+def test_other_plots_that_cannot_be(scene_file: Path, call: Call, words: tuple[object, ...], part: str) -> None:
+    call("run", scene_file, "--no-progress", "--out", "mine.vtkhdf")
+    outcome = call("plot", "mine.vtkhdf", *words)
+    assert outcome.code == 2 and part in outcome.err
