@@ -19,7 +19,9 @@ OUTWARD = {"top": 1.0, "bottom": -1.0}
 
 
 def half_thickness(run: Archive, shell: Patch) -> float:
-    """Largest half of the deformed thickness in m; 0 where the stated one is not a number."""
+    """Largest half of the deformed thickness in m; 0 where an older archive does not tell it."""
+    if "thickness" in shell.block.units:
+        return float(shell.block.field("thickness", shell.step).max()) / 2
     stated: Any = tomllib.loads(run.scene)["shell"]["thickness"]
     thickness = float(stated) if isinstance(stated, (int, float)) else 0.0
     if "thickness_stretch" in shell.block.units:

@@ -21,8 +21,6 @@ NAMES = {
     "B": "flux density $|B|$",
     "energy_density": "field energy density",
     "phi": r"potential $\varphi$",
-    "D": "electric flux density $|D|$",
-    "B": "magnetic flux density $|B|$",
     "t_t": "top face traction $|t_t|$",
     "t_b": "bottom face traction $|t_b|$",
 }
@@ -68,6 +66,7 @@ def scalar_label(name: str, unit: str) -> str:
 
 
 def _with_unit(text: str, unit: str) -> str:
+    unit = unit.replace("^2", "²").replace("^3", "³")
     return f"{text} [{unit}]" if unit else text
 
 
