@@ -25,13 +25,12 @@ from embedding.view.drawing import (
 from embedding.view.labels import quantity, round_length
 from embedding.view.page import Bar, Page
 from embedding.view.rendering import require_rendering
-from embedding.view.section import Section, cropped, sections, vector_field
+from embedding.view.section import Section, planes_with_field, vector_field
 from embedding.view.surface import Surface, shell_surface
 
 VIEW = {"sphere": "meridian", "infinite-cylinder": "cross-section"}
 """How shapes are looked at; all others are sheets."""
 REACH = 2.4  # how much of the ambient is shown, in sizes of the shell
-FIELD_FREE = 1e-3  # a side whose field is weaker than this part of the other's is left out
 MOVED = 0.02  # how far a shell must have moved, relative to its size, for its old outline to be shown
 BENT = 0.05  # how little a shell is stretched, relative to how far it has moved, for its displacement to be shown
 SPACED = 0.5  # the size that the spacing of lines in an animation is meant for, in radii of its frame
@@ -108,10 +107,8 @@ class StepView:
         if "outside" not in archive.blocks:
             return StepView(archive, step, field, None, surface, size, ())
         name = ambient_field or vector_field(archive.block("outside", step))
-        planes = [cropped(plane, radius or reach * size) for plane in sections(archive, name, step).values()]
-        strongest = max(plane.strength for plane in planes)
-        shown = tuple(plane for plane in planes if plane.strength >= FIELD_FREE * strongest)
-        return StepView(archive, step, field, name, surface, size, shown)
+        planes = planes_with_field(archive, name, step, radius or reach * size)
+        return StepView(archive, step, field, name, surface, size, tuple(planes))
 
     def limits(self, views: Sequence[StepView]) -> tuple[Limits, Limits | None]:
         """Colours of the shell and of the ambient that suit all ``views``."""

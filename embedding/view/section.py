@@ -11,12 +11,15 @@ import numpy as np
 import numpy.typing as npt
 
 from embedding.archive.reader import Archive, ArchivedBlock
+from embedding.post.integrals import closed
+from embedding.post.patches import Patch
 from embedding.view.surface import AXES, magnitude
 from embedding.view.tessellation import Tessellation
 
 Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 SIDES = ("outside", "inside")
+FIELD_FREE = 1e-3  # a side whose field is weaker than this part of the other's is left out
 ROUND = 20_000  # triangles in a plane from which on its edge looks round
 ASIDE = 1e-4  # a cut in a mirror plane runs this far beside it, relative to the ambient: in it, cells have no inside
 
@@ -49,6 +52,26 @@ def sections(archive: Archive, field: str, step: int) -> dict[str, Section]:
     plane z = 0.
     """
     return {side: _section(archive, side, field, step) for side in SIDES if side in archive.blocks}
+
+
+def planes_with_field(archive: Archive, field: str, step: int, radius: float) -> list[Section]:
+    """The planes of :func:`sections` within a ``radius`` of the origin, those without field left out.
+
+    Around an open shell the two sides go over into each other: they are one plane there, so that lines go on.
+    """
+    planes = [cropped(plane, radius) for plane in sections(archive, field, step).values()]
+    strongest = max(plane.strength for plane in planes)
+    planes = [plane for plane in planes if plane.strength >= FIELD_FREE * strongest]
+    return planes if closed(Patch.of(archive, "shell", step, deformed=False)) else [joined(planes)]
+
+
+def joined(planes: Sequence[Section]) -> Section:
+    """Several planes as one."""
+    starts = np.cumsum([0, *(len(plane.points) for plane in planes)])
+    triangles = [plane.triangles + start for plane, start in zip(planes, starts, strict=False)]
+    parts = ([getattr(plane, name) for plane in planes] for name in ("points", "values", "vectors"))
+    points, values, vectors = (np.concatenate(part) for part in parts)
+    return Section(points, np.concatenate(triangles), values, vectors)
 
 
 def _section(archive: Archive, side: str, field: str, step: int) -> Section:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +13,11 @@ import numpy.typing as npt
 from embedding.archive import Archive, open_archive
 from embedding.errors import ArchiveError
 from embedding.view import chart
-from embedding.view.drawing import FIELD_COLOURS, colour_limits
+from embedding.view.drawing import FIELD_COLOURS, Limits, colour_limits
 from embedding.view.labels import label, prefixed
 from embedding.view.lines import Raster, field_lines
 from embedding.view.rendering import require_packages
-from embedding.view.section import Section, cropped, section_mesh, sections, vector_field
+from embedding.view.section import Section, planes_with_field, section_mesh, vector_field
 from embedding.view.surface import LINE, shell_surface
 from embedding.view.tessellation import Tessellation
 
@@ -25,7 +26,7 @@ REACH, SPACING, RASTER = 2.4, 0.16, 0.1  # in sizes of the shell; spacing of the
 ALONG = {"plane-strain": (0, 1)}
 HEIGHT = 6.2
 SHELL_WIDTH = 2.6
-FIELD_FREE = 1e-3  # a side whose field is weaker than this part of the other's is left white
+BRIGHT = 0.995  # of the area is within the range of colours: a rim with an infinite field must not hide all else
 
 
 def slice_plot(
@@ -61,9 +62,7 @@ def slice_figure(archive: Archive, step: int, field: str | None, lines: bool, re
     axes_shown = ALONG.get(archive.run["reduction"], (0, 2))
     curves = shell_cut(archive, step)
     size = max(float(np.linalg.norm(curve, axis=1).max()) for curve in curves)
-    planes = [cropped(plane, reach * size) for plane in sections(archive, name, step).values()]
-    strongest = max(plane.strength for plane in planes)
-    planes = [plane for plane in planes if plane.strength >= FIELD_FREE * strongest]
+    planes = planes_with_field(archive, name, step, reach * size)
     return _drawn(archive, step, name, axes_shown, (curves, planes), size, lines)
 
 
@@ -75,7 +74,7 @@ def _drawn(
     span = np.ptp(points, axis=0)
     figure, (axes,) = chart.new_figure(max(3.2, HEIGHT * span[0] / span[1]) + 1.9, HEIGHT + 0.7)
     metre, metres = prefixed(float(np.abs(points).max()), "m")
-    limits = colour_limits([plane.values for plane in planes], from_zero=True, noise=1e-300)
+    limits, brighter = _limits(planes)
     unit = archive.block("outside", step).units[name]
     factor, unit = prefixed(max(map(abs, limits)), unit)
     for plane in planes:
@@ -93,12 +92,27 @@ def _drawn(
     low, high = metre * points.min(axis=0), metre * points.max(axis=0)
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
-    bar = figure.colorbar(drawn, ax=axes, shrink=0.75, pad=0.03)
+    bar = figure.colorbar(drawn, ax=axes, shrink=0.75, pad=0.03, extend="max" if brighter else "neither")
     bar.set_label(label(name, unit), fontsize=12, color=chart.INK, labelpad=8)
     bar.outline.set_linewidth(0.6)
     chart.titled(axes, f"{archive.run['name']}, step {step + 1} of {len(archive)}")
     chart.named(axes, *(f"{'xyz'[axis]} [{metres}]" for axis in shown))
     return figure
+
+
+def _limits(planes: Sequence[Section]) -> tuple[Limits, bool]:
+    """The range of colours, and whether there are larger values: those of a small part of the area, far above."""
+    values, areas = [], []
+    for plane in planes:
+        corners = plane.points[plane.triangles]
+        areas.append(np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1))
+        values.append(plane.values[plane.triangles].mean(axis=1))
+    value, area = np.concatenate(values), np.concatenate(areas)
+    order = np.argsort(value)
+    share = np.cumsum(area[order]) / area.sum()
+    high = float(value[order][min(int(np.searchsorted(share, BRIGHT)), len(value) - 1)])
+    limits = colour_limits([plane.values for plane in planes], from_zero=True, noise=1e-300)
+    return ((limits[0], high), True) if 2 * high < limits[1] and high > limits[0] else (limits, False)
 
 
 def lines_in(section: Section, shown: tuple[int, int], spacing: float) -> list[Floats]:

@@ -14,7 +14,8 @@ from embedding.post import line, probe
 from embedding.view import can_render, faces_plot, probe_plot, slice_plot
 from embedding.view.curves import probe_figure
 from embedding.view.faces import chains, faces_figure
-from embedding.view.slice import slice_figure
+from embedding.view.section import Section
+from embedding.view.slice import _limits, slice_figure
 from tests.archive.made_up_run import LENGTH, Problem, tell
 
 REDUCTIONS = ("axisymmetric", "plane-strain", "3d")
@@ -44,6 +45,17 @@ def test_a_slice(archive: Path, tmp_path: Path) -> None:
     assert (high, wide) == (pytest.approx(1e3 * 1.35 * LENGTH, rel=1e-2), pytest.approx(1e3 * 0.85 * LENGTH, rel=1e-2))
     assert min(one.get_xdata().min() for one in lines) < 0 if flat else axes.get_xlim()[0] == pytest.approx(0, abs=0.1)
     assert slice_plot(archive, tmp_path / "s.png", field="phi", lines=False).stat().st_size > 10_000
+
+
+def test_an_infinite_field_does_not_hide_all_else() -> None:
+    """Values r^(-1/2) of a rim on a mesh that is fine there; those of a half per cent of the area are cut off."""
+    graded = np.linspace(0, 1, 41) ** 4
+    points = np.array([[x, 0.0, z] for x in graded for z in graded])
+    cells = [[i * 41 + j, (i + 1) * 41 + j, i * 41 + j + 1] for i in range(40) for j in range(40)]
+    radius = np.maximum(np.linalg.norm(points, axis=1), 1e-6)
+    (low, high), brighter = _limits([Section(points, np.array(cells), radius**-0.5, points)])
+    assert brighter and low == 0.0 and high == pytest.approx((4 * 0.005 / np.pi) ** -0.25, rel=0.15)
+    assert _limits([Section(points, np.array(cells), points[:, 0], points)])[1] is False
 
 
 def test_a_slice_needs_an_ambient(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import importlib
 import json
 import re
 from pathlib import Path
@@ -14,7 +15,7 @@ import pytest
 from embedding import open_archive
 from embedding.archive import Recorder
 from embedding.errors import ArchiveError
-from embedding.view import RenderError, animation, can_render, interactive_page
+from embedding.view import RenderError, animation, can_render, faces_plot, interactive_page, rendering
 from embedding.view.interactive import page_data
 from tests.archive.made_up_run import Problem, tell
 
@@ -28,10 +29,11 @@ def run(folder: Path, reduction: str = "axisymmetric", steps: int = 3) -> Path:
 
 @draws
 @pytest.mark.parametrize("reduction", ["axisymmetric", "3d"])
-def test_a_moving_picture(reduction: str, tmp_path: Path) -> None:
+def test_a_moving_picture(reduction: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(importlib.import_module("embedding.view.animation"), "PIXELS", (500, 500))
     from PIL import Image
 
-    path = animation(run(tmp_path, reduction), tmp_path / "a.gif", reach=1.5)
+    path = animation(run(tmp_path, reduction), tmp_path / "a.gif", reach=1.5, lines=reduction == "3d")
     with Image.open(path) as film:
         assert film.n_frames == 3 and film.info["loop"] == 0
         frames = []
@@ -50,6 +52,20 @@ def test_films_need_a_writer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     with pytest.raises(RenderError, match=r"pip install 'embedding\[movies\]'; a GIF needs nothing more"):
         animation(tmp_path / "run.vtkhdf", tmp_path / "a.mp4")
+
+
+def test_where_nothing_can_be_drawn_it_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(rendering, "PROBE", "import os; os.abort()")
+    rendering.can_render.cache_clear()
+    try:
+        with pytest.raises(RenderError, match="no OpenGL driver answers"):
+            animation(run(tmp_path), tmp_path / "a.gif")
+        with pytest.raises(RenderError, match="no OpenGL driver answers"):
+            faces_plot(run(tmp_path, "3d"), tmp_path / "f.png")
+        assert interactive_page(run(tmp_path), tmp_path / "p.html").exists()
+        assert faces_plot(run(tmp_path), tmp_path / "f.png").exists()
+    finally:
+        rendering.can_render.cache_clear()
 
 
 def decoded(text: str, kind: str) -> Any:
