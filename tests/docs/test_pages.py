@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import re
 import subprocess
@@ -102,3 +103,14 @@ def test_the_study_finds_the_pull_in_of_the_thin_balloon(tmp_path: Path) -> None
         assert limit is not None
         assert row.quantities["pull_in"] == pytest.approx(limit.load, rel=1e-5)
         assert row.quantities["stretch"] == pytest.approx(limit.stretch, rel=1e-4)
+
+
+def test_the_gallery_is_what_the_problems_say() -> None:
+    """Its page is made from their texts, and every picture is there."""
+    spec = importlib.util.spec_from_file_location("gallery", ROOT / "docs" / "gallery.py")
+    assert spec is not None and spec.loader is not None
+    gallery = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(gallery)
+    assert (ROOT / "docs" / "gallery.md").read_text() == gallery.page()
+    names = {f"{name}.png" for part in gallery.PARTS.values() for name in part}
+    assert {path.name for path in gallery.IMAGES.iterdir()} == names
