@@ -6,6 +6,7 @@ import resource
 
 from benchmarks import (
     archive_writing,
+    continuation,
     coupled_step,
     coupling_rungs,
     disc_capacitance,
@@ -19,7 +20,8 @@ from benchmarks import (
 def main() -> None:
     """Run and print all benchmarks, and the peak memory of this process."""
     for benchmark in (
-        newton_step, coupled_step, coupling_rungs, far_field, disc_capacitance, shell_step, archive_writing, start_up
+        newton_step, coupled_step, coupling_rungs, far_field, disc_capacitance, shell_step, continuation,
+        archive_writing, start_up,
     ):  # fmt: skip
         print((benchmark.__doc__ or "").splitlines()[0])
         for line in benchmark.report():
