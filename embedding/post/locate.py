@@ -55,18 +55,14 @@ def nearest(corners: Floats, order: int, points: Floats) -> Found:
 
     count, nodes, space = corners.shape
     _, close = cKDTree(corners.reshape(-1, space)).query(points, k=min(NEAREST, count * nodes))
-    cell, distance = np.full(len(points), -1), np.full(len(points), np.inf)
-    place: Floats = np.zeros((len(points), 0))
-    for number, row in enumerate(np.atleast_2d(close.reshape(len(points), -1)) // nodes):
-        tried = np.unique(row)
-        at = _projected(corners[tried], order, np.broadcast_to(points[number], (len(tried), space)))
-        basis = lagrange_basis(nodes_of(at.shape[1] - 1, order), at)
-        apart = np.linalg.norm(np.einsum("cn,cnx->cx", basis, corners[tried]) - points[number], axis=1)
-        if place.shape[1] == 0:
-            place = np.zeros((len(points), at.shape[1]))
-        best = int(apart.argmin())
-        cell[number], distance[number], place[number] = tried[best], apart[best], at[best]
-    return Found(cell, place, distance)
+    rows = np.repeat(np.arange(len(points)), close.size // max(1, len(points)))
+    pairs = np.unique(np.column_stack([rows, np.ravel(close) // nodes]), axis=0)
+    row, tried = pairs.T
+    at = _projected(corners[tried], order, points[row])
+    basis = lagrange_basis(nodes_of(at.shape[1] - 1, order), at)
+    apart = np.linalg.norm(np.einsum("pn,pnx->px", basis, corners[tried]) - points[row], axis=1)
+    best = np.lexsort((apart, row))[np.searchsorted(row, np.arange(len(points)))]  # the first of every point's
+    return Found(tried[best], at[best], apart[best])
 
 
 def interpolated(nodal: npt.NDArray[np.floating], cells: Integers, order: int, found: Found) -> Floats:
