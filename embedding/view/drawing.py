@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from embedding.view.colours import FIELD_COLOURS, SHELL_COLOURS, Limits
 from embedding.view.lines import Raster, field_lines
 from embedding.view.section import Section, section_mesh
 from embedding.view.surface import Surface
 
 Floats = npt.NDArray[np.float64]
-Limits = tuple[float, float]
 Place = tuple[float, float, float]
-SHELL_COLOURS, FIELD_COLOURS = "YlOrRd", "GnBu"
 EDGE_COLOUR, LINE_COLOUR = "#22222a", "#24385e"
 VIEWS = {  # from where, and what is up
     "meridian": ((0.42, -1.0, 0.36), (0.0, 0.0, 1.0)),
@@ -166,21 +164,3 @@ def _dashes(points: Floats, length: float) -> list[Floats]:
 
 def _in_plane(vectors: Floats, axes: list[int]) -> Floats:
     return np.column_stack([vectors[:, axes], np.zeros(len(vectors))])
-
-
-def colour_limits(parts: Sequence[Floats], from_zero: bool, noise: float) -> Limits:
-    """Range of colours for all ``parts``: wider than ``noise`` and 2 % of the values, from zero on if that
-    is natural.
-
-    A part in a thousand of the values may lie above the range: a singular point must not hide everything
-    else.
-    """
-    values = np.concatenate([part[np.isfinite(part)] for part in parts])
-    low, high = float(values.min()), float(np.quantile(values, 0.999))
-    if from_zero and 0 <= low <= max(0.5 * high, noise):
-        return 0.0, max(high, noise)
-    least = max(0.02 * max(abs(low), abs(high)), noise)
-    if high - low < least:
-        middle = (low + high) / 2
-        low, high = middle - least / 2, middle + least / 2
-    return low, high

@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from embedding.archive import Archive, open_archive
 from embedding.view import chart
-from embedding.view.drawing import SHELL_COLOURS, Canvas, colour_limits
+from embedding.view.colours import SHELL_COLOURS, colour_limits
+from embedding.view.drawing import Canvas
 from embedding.view.labels import prefixed
 from embedding.view.rendering import require_rendering
 from embedding.view.surface import LINE, shell_surface
@@ -66,7 +67,8 @@ def _along_the_curve(archive: Archive, step: int, title: str) -> Any:
             axes.plot(metre * along, pressure, color=colour, linewidth=2.2, label=None if number else words)
     chart.titled(axes, title)
     what = "meridian" if archive.run["reduction"] == "axisymmetric" else "cross-section"
-    chart.named(axes, f"arc length along the deformed {what} [{metres}]", f"pressure [{unit}]")
+    part = ", meshed part" if archive.run["mirrors"] else ""
+    chart.named(axes, f"arc length along the deformed {what}{part} [{metres}]", f"pressure [{unit}]")
     chart.legend(axes)
     return figure
 

@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from embedding.archive import Archive, open_archive
 from embedding.errors import ArchiveError
-from embedding.view.drawing import SHELL_COLOURS, colour_limits
+from embedding.view.colours import SHELL_COLOURS, colour_limits
 from embedding.view.labels import label, prefixed
 from embedding.view.picture import caption_of, is_closed, telling
 from embedding.view.rendering import require_packages

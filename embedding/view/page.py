@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO, TypeVar
 
-from embedding.view.drawing import Drawing, Limits
+from embedding.view.colours import Limits
+from embedding.view.drawing import Drawing
 from embedding.view.labels import label, prefixed, quantity
 
 DPI = 160
@@ -21,12 +22,13 @@ LETTER = 0.079  # width of a letter of the caption
 
 @dataclass(frozen=True)
 class Bar:
-    """A colour bar: its colours, its range and what it shows, in SI."""
+    """A colour bar: its colours, its range and what it shows, in SI, and whether there is ``more`` above the range."""
 
     colours: str
     limits: Limits
     name: str
     unit: str
+    more: bool = False
 
 
 @dataclass(frozen=True)
@@ -77,7 +79,8 @@ class Page:
             factor, unit = prefixed(max(map(abs, bar.limits)), bar.unit)
             low, high = (factor * limit for limit in bar.limits)
             colours = ScalarMappable(Normalize(low, high), bar.colours)
-            drawn = figure.colorbar(colours, cax=figure.add_axes(place))
+            extend = "max" if bar.more else "neither"
+            drawn = figure.colorbar(colours, cax=figure.add_axes(place), extend=extend)
             drawn.set_label(label(bar.name, unit), fontsize=12, color=INK, labelpad=8)
             drawn.ax.tick_params(labelsize=10.5, colors=INK)
             drawn.ax.ticklabel_format(useOffset=False)

@@ -12,20 +12,12 @@ from pathlib import Path
 import numpy as np
 
 from embedding.archive import Archive, open_archive
-from embedding.view.drawing import (
-    FIELD_COLOURS,
-    PIXELS,
-    SHELL_COLOURS,
-    Canvas,
-    Drawing,
-    Frame,
-    Limits,
-    colour_limits,
-)
+from embedding.view.colours import FIELD_COLOURS, SHELL_COLOURS, Limits, colour_limits
+from embedding.view.drawing import PIXELS, Canvas, Drawing, Frame
 from embedding.view.labels import quantity, round_length
 from embedding.view.page import Bar, Page
 from embedding.view.rendering import require_rendering
-from embedding.view.section import Section, planes_with_field, vector_field
+from embedding.view.section import Section, field_limits, planes_with_field, vector_field
 from embedding.view.surface import Surface, shell_surface
 
 VIEW = {"sphere": "meridian", "infinite-cylinder": "cross-section"}
@@ -34,6 +26,7 @@ REACH = 2.4  # how much of the ambient is shown, in sizes of the shell
 MOVED = 0.02  # how far a shell must have moved, relative to its size, for its old outline to be shown
 BENT = 0.05  # how little a shell is stretched, relative to how far it has moved, for its displacement to be shown
 SPACED = 0.5  # the size that the spacing of lines in an animation is meant for, in radii of its frame
+MORE = 1.5  # from which part of the range of colours on a value above it is told of
 ROUNDING = 1e-7  # relative to the scales of a run
 CAPTION = {
     "voltage": "voltage",
@@ -114,12 +107,12 @@ class StepView:
         """Colours of the shell and of the ambient that suit all ``views``."""
         shell = self.archive.block("shell", self.step).units[self.shell_field]
         surfaces = [view.surface.values for view in views]
-        of_shell = colour_limits(surfaces, from_zero=self.shell_field == "u", noise=_noise(self.archive, shell))
+        of_shell = colour_limits(surfaces, from_zero=self.shell_field == "u", noise=noise_of(self.archive, shell))
         if self.ambient_field is None:
             return of_shell, None
         unit = self.archive.block("outside", self.step).units[self.ambient_field]
-        parts = [plane.values for view in views for plane in view.planes]
-        return of_shell, colour_limits(parts, from_zero=True, noise=_noise(self.archive, unit))
+        planes = [plane for view in views for plane in view.planes]
+        return of_shell, field_limits(planes, noise_of(self.archive, unit))[0]
 
     @property
     def moved(self) -> bool:
@@ -154,7 +147,8 @@ class StepView:
         bars = [Bar(SHELL_COLOURS, limits[0], self.shell_field, shell)]
         if self.ambient_field is not None and limits[1] is not None:
             unit = self.archive.block("outside", self.step).units[self.ambient_field]
-            bars.append(Bar(FIELD_COLOURS, limits[1], self.ambient_field, unit))
+            largest = max(float(plane.values.max()) for plane in self.planes)
+            bars.append(Bar(FIELD_COLOURS, limits[1], self.ambient_field, unit, largest > MORE * limits[1][1]))
         title, note = self.archive.run["name"].replace("_", " "), "dashed: undeformed" if self.moved else ""
         return Page(title, caption_of(self.archive, self.step), tuple(bars), round_length(self.size), note)
 
@@ -186,7 +180,7 @@ def _edge_radius(archive: Archive, step: int, size: float) -> float:
     return max(thickness / 2, 0.006 * size)
 
 
-def _noise(archive: Archive, unit: str) -> float:
+def noise_of(archive: Archive, unit: str) -> float:
     """What cannot be told from zero in a quantity of this unit: a small part of the run's own scale."""
     scales = archive.scales
     size = {"m": scales.length, "Pa": scales.stress, "V": scales.potential, "A": scales.potential}

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from embedding.archive.reader import Archive, ArchivedBlock
 from embedding.post.integrals import closed
 from embedding.post.patches import Patch
+from embedding.view.colours import Limits, colour_limits
 from embedding.view.surface import AXES, magnitude
 from embedding.view.tessellation import Tessellation
 
@@ -20,6 +21,7 @@ Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 SIDES = ("outside", "inside")
 FIELD_FREE = 1e-3  # a side whose field is weaker than this part of the other's is left out
+BRIGHT = 0.995  # of the area is within the range of colours: a rim with an infinite field must not hide all else
 ROUND = 20_000  # triangles in a plane from which on its edge looks round
 ASIDE = 1e-4  # a cut in a mirror plane runs this far beside it, relative to the ambient: in it, cells have no inside
 
@@ -72,6 +74,24 @@ def joined(planes: Sequence[Section]) -> Section:
     parts = ([getattr(plane, name) for plane in planes] for name in ("points", "values", "vectors"))
     points, values, vectors = (np.concatenate(part) for part in parts)
     return Section(points, np.concatenate(triangles), values, vectors)
+
+
+def field_limits(planes: Sequence[Section], noise: float) -> tuple[Limits, bool]:
+    """The range of colours of planes, and whether there are larger values: far above, of a small part of the area.
+
+    What is below ``noise`` cannot be told from zero.
+    """
+    values, areas = [], []
+    for plane in planes:
+        corners = plane.points[plane.triangles]
+        areas.append(np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1))
+        values.append(plane.values[plane.triangles].mean(axis=1))
+    value, area = np.concatenate(values), np.concatenate(areas)
+    order = np.argsort(value)
+    share = np.cumsum(area[order]) / area.sum()
+    high = float(value[order][min(int(np.searchsorted(share, BRIGHT)), len(value) - 1)])
+    limits = colour_limits([plane.values for plane in planes], from_zero=True, noise=noise)
+    return ((limits[0], high), True) if 2 * high < limits[1] and high > limits[0] else (limits, False)
 
 
 def _section(archive: Archive, side: str, field: str, step: int) -> Section:

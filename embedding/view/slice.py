@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +12,12 @@ import numpy.typing as npt
 from embedding.archive import Archive, open_archive
 from embedding.errors import ArchiveError
 from embedding.view import chart
-from embedding.view.drawing import FIELD_COLOURS, Limits, colour_limits
+from embedding.view.colours import FIELD_COLOURS
 from embedding.view.labels import label, prefixed
 from embedding.view.lines import Raster, field_lines
+from embedding.view.picture import noise_of
 from embedding.view.rendering import require_packages
-from embedding.view.section import Section, planes_with_field, section_mesh, vector_field
+from embedding.view.section import Section, field_limits, planes_with_field, section_mesh, vector_field
 from embedding.view.surface import LINE, shell_surface
 from embedding.view.tessellation import Tessellation
 
@@ -26,7 +26,6 @@ REACH, SPACING, RASTER = 2.4, 0.16, 0.1  # in sizes of the shell; spacing of the
 ALONG = {"plane-strain": (0, 1)}
 HEIGHT = 6.2
 SHELL_WIDTH = 2.6
-BRIGHT = 0.995  # of the area is within the range of colours: a rim with an infinite field must not hide all else
 
 
 def slice_plot(
@@ -74,8 +73,8 @@ def _drawn(
     span = np.ptp(points, axis=0)
     figure, (axes,) = chart.new_figure(max(3.2, HEIGHT * span[0] / span[1]) + 1.9, HEIGHT + 0.7)
     metre, metres = prefixed(float(np.abs(points).max()), "m")
-    limits, brighter = _limits(planes)
     unit = archive.block("outside", step).units[name]
+    limits, brighter = field_limits(planes, noise_of(archive, unit))
     factor, unit = prefixed(max(map(abs, limits)), unit)
     for plane in planes:
         x, y = metre * plane.points[:, shown].T
@@ -98,21 +97,6 @@ def _drawn(
     chart.titled(axes, f"{archive.run['name']}, step {step + 1} of {len(archive)}")
     chart.named(axes, *(f"{'xyz'[axis]} [{metres}]" for axis in shown))
     return figure
-
-
-def _limits(planes: Sequence[Section]) -> tuple[Limits, bool]:
-    """The range of colours, and whether there are larger values: those of a small part of the area, far above."""
-    values, areas = [], []
-    for plane in planes:
-        corners = plane.points[plane.triangles]
-        areas.append(np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1))
-        values.append(plane.values[plane.triangles].mean(axis=1))
-    value, area = np.concatenate(values), np.concatenate(areas)
-    order = np.argsort(value)
-    share = np.cumsum(area[order]) / area.sum()
-    high = float(value[order][min(int(np.searchsorted(share, BRIGHT)), len(value) - 1)])
-    limits = colour_limits([plane.values for plane in planes], from_zero=True, noise=1e-300)
-    return ((limits[0], high), True) if 2 * high < limits[1] and high > limits[0] else (limits, False)
 
 
 def lines_in(section: Section, shown: tuple[int, int], spacing: float) -> list[Floats]:

@@ -14,8 +14,8 @@ from embedding.post import line, probe
 from embedding.view import can_render, faces_plot, probe_plot, slice_plot
 from embedding.view.curves import probe_figure
 from embedding.view.faces import chains, faces_figure
-from embedding.view.section import Section
-from embedding.view.slice import _limits, slice_figure
+from embedding.view.section import Section, field_limits
+from embedding.view.slice import slice_figure
 from tests.archive.made_up_run import LENGTH, Problem, tell
 
 REDUCTIONS = ("axisymmetric", "plane-strain", "3d")
@@ -53,9 +53,9 @@ def test_an_infinite_field_does_not_hide_all_else() -> None:
     points = np.array([[x, 0.0, z] for x in graded for z in graded])
     cells = [[i * 41 + j, (i + 1) * 41 + j, i * 41 + j + 1] for i in range(40) for j in range(40)]
     radius = np.maximum(np.linalg.norm(points, axis=1), 1e-6)
-    (low, high), brighter = _limits([Section(points, np.array(cells), radius**-0.5, points)])
+    (low, high), brighter = field_limits([Section(points, np.array(cells), radius**-0.5, points)], 1e-9)
     assert brighter and low == 0.0 and high == pytest.approx((4 * 0.005 / np.pi) ** -0.25, rel=0.15)
-    assert _limits([Section(points, np.array(cells), points[:, 0], points)])[1] is False
+    assert field_limits([Section(points, np.array(cells), points[:, 0], points)], 1e-9)[1] is False
 
 
 def test_a_slice_needs_an_ambient(tmp_path: Path) -> None:

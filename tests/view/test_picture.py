@@ -17,7 +17,7 @@ from ngsolve import Mesh
 from embedding.archive import Recorder, open_archive
 from embedding.errors import ArchiveError
 from embedding.view import RenderError, can_render, history_plot, picture, rendering
-from embedding.view.drawing import colour_limits
+from embedding.view.colours import colour_limits
 from embedding.view.section import cropped, sections
 from embedding.view.surface import shell_surface
 from tests.archive.made_up_run import LENGTH, RADIUS, Problem, tell
