@@ -52,7 +52,7 @@ def energy_balance(archive: Source) -> Table:
 
     Raises:
         PostError: no step, or work that the archive does not tell: of applied fields, of forces that follow an edge, of
-            the published variant of pressures, of a free tube.
+            moments on edges in space, of the published variant of pressures, of a free tube; or no equilibria.
         ArchiveError: the archive cannot be read.
     """
     run = opened(archive)
@@ -108,6 +108,8 @@ def _refuse(run: Archive, scene: Scene) -> None:
     loads = scene.loads
     if scene.ambient is not None and "field_energy" not in run.scalars:
         raise PostError(f"{run.path}: the energy of a field is not recorded where a field is applied or given")
+    if scene.model.coupling == "once":
+        raise PostError(f'{run.path}: with model.coupling = "once" no state is in equilibrium with its own field')
     if any(edge.kind == "follower" for edge in loads.edge_tractions):
         raise PostError(f"{run.path}: the work of forces that follow an edge is not recorded")
     if loads.edge_moments and "load_work" not in run.scalars:
