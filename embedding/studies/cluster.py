@@ -13,7 +13,7 @@ from typing import Any, Self
 
 from embedding.studies.cases import Case
 from embedding.studies.errors import StudyError, require
-from embedding.studies.files import CaseFolder, StudyFolder, clear_case, read_json
+from embedding.studies.files import CaseFolder, StudyFolder, read_json
 from embedding.studies.pool import Record, death, late
 from embedding.studies.record import KILLED, RAISED, failure
 
@@ -101,7 +101,6 @@ def solve_on_worker(path: str, seconds: float | None) -> Record:
     done = read_json(folder.record)
     if done is not None:  # by a worker that was lost before it could tell
         return done
-    clear_case(folder)
     command = [sys.executable, "-m", "embedding.studies.worker", path]
     # The pipe ends with this process, and the case with the pipe.
     with subprocess.Popen(command, stdin=subprocess.PIPE, env=_environment()) as process:

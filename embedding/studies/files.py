@@ -118,23 +118,16 @@ class StudyFolder:
         return load_study(self.path / STUDY)
 
 
-def write_case(folder: CaseFolder, scene: Scene, start: Path | None = None) -> None:
-    """A folder for a case that is about to be solved: what an earlier attempt left is removed. ``start`` is the archive
-    from whose last state the case starts."""
-    import shutil
-
-    shutil.rmtree(folder.path, ignore_errors=True)
-    folder.path.mkdir(parents=True)
+def write_case(folder: CaseFolder, scene: Scene, start: Path | None = None, *, go_on: bool = False) -> None:
+    """A folder for a case that is about to be solved: what an earlier attempt left is removed, but for the archive if
+    the case shall ``go_on`` from there. ``start`` is the archive from whose last state the case starts."""
+    folder.path.mkdir(parents=True, exist_ok=True)
+    for path in folder.path.iterdir():
+        if not go_on or not path.name.startswith(f"{folder.archive.stem}."):
+            path.unlink()
     if start is not None:
         folder.start.write_text(os.fspath(start), encoding="utf-8")
     folder.scene.write_text(scene.to_toml(), encoding="utf-8")
-
-
-def clear_case(folder: CaseFolder) -> None:
-    """Remove what a lost attempt at a case left in its folder."""
-    for path in folder.path.iterdir():
-        if path not in (folder.scene, folder.start):
-            path.unlink()
 
 
 def write_whole(path: Path, text: str, sync: bool = True) -> None:

@@ -11,6 +11,8 @@ if TYPE_CHECKING:
 
 DONE, DIVERGED, REFUSED, RAISED = "done", "diverged", "refused", "raised"
 KILLED, OVER_TIME, MISSING = "killed", "over time", "missing"
+RESUMED = "resumed"
+"""How a case started that went on from what an earlier attempt had left."""
 
 Scalars = dict[str, float]
 

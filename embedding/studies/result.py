@@ -29,8 +29,9 @@ class Row:
     """One case: its hash, parameters and quantities in SI units, and how it ended.
 
     ``status`` is "done", "diverged", "refused", "raised", "killed", "over time" or "missing"; ``reason`` says more.
-    Quantities that a case does not have are nan. ``start`` is "rest", "neighbour", or "rest: ..." with the reason why
-    it was not its neighbour's state; ``iterations`` are Newton's. ``changes`` are what ``embedding run --set`` takes.
+    Quantities that a case does not have are nan. ``start`` is "rest", "neighbour", "rest: ..." with the reason why it
+    was not its neighbour's state, or "resumed" from an earlier attempt; ``iterations`` are Newton's. ``changes`` are
+    what ``embedding run --set`` takes.
     """
 
     case: str

@@ -16,7 +16,7 @@ from embedding.studies.errors import StudyError
 from embedding.studies.files import StudyFolder, read_json, write_case
 from embedding.studies.index import Index
 from embedding.studies.pool import LocalPool, Pool
-from embedding.studies.record import DONE
+from embedding.studies.record import DONE, KILLED, OVER_TIME
 from embedding.studies.result import StudyResult, result_of
 from embedding.studies.study import Study
 
@@ -54,7 +54,7 @@ def run_study(
         missing = sorted((case for case in wanted.values() if case not in known), key=lambda case: case.number)
         with StudyDisplay(study.name, len(wanted), len(known), quiet=not progress) as display:
             pool = _pool(study, home, workers, scheduler)
-            for case, record in _solved(home, missing, pool, display, Chain(home, cases, index)):
+            for case, record in _solved(home, missing, pool, display, Earlier(home, cases, index)):
                 index.append({"case": case.key, "changes": list(case.changes), **record})
                 display.finished(case, record)
                 if record["status"] == DONE:
@@ -81,7 +81,7 @@ def _adopt(index: Index, home: StudyFolder, key: str) -> None:
 
 
 def _solved(
-    home: StudyFolder, missing: Sequence[Case], pool: Pool, display: StudyDisplay, chain: Chain
+    home: StudyFolder, missing: Sequence[Case], pool: Pool, display: StudyDisplay, earlier: Earlier
 ) -> Iterator[tuple[Case, dict[str, Any]]]:
     """Solve cases, each after the one that it starts from; yields each with its record as it ends."""
     queue = list(missing)
@@ -92,7 +92,7 @@ def _solved(
             for case in ready[: max(0, pool.capacity - len(pool.running))]:
                 queue.remove(case)
                 if case.scene is not None:
-                    write_case(home.case(case.key), case.scene, chain.start(case))
+                    write_case(home.case(case.key), case.scene, earlier.start(case), go_on=earlier.hindered(case))
                     pool.start(case)
             for case, record in pool.ended():
                 if case.before is not None and record.get("start") == "rest":
@@ -102,12 +102,18 @@ def _solved(
 
 
 @dataclass(frozen=True)
-class Chain:
-    """Which archive a case of a continuation starts from: that of the nearest case before it that is done."""
+class Earlier:
+    """What a case starts from: the archive of an earlier attempt at itself; in a continuation that of the nearest case
+    before it that is done."""
 
     home: StudyFolder
     cases: Sequence[Case]
     index: Index
+
+    def hindered(self, case: Case) -> bool:
+        """Was an earlier attempt at the case ended from outside, so that it may go on where it was?"""
+        known = self.index.records.get(case.key)
+        return known is None or known["status"] in (KILLED, OVER_TIME)
 
     def start(self, case: Case) -> Path | None:
         """None for a start from rest."""

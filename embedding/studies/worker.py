@@ -9,17 +9,19 @@ import sys
 import threading
 import traceback
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from embedding.errors import SceneError
+from embedding.errors import ArchiveError, SceneError
 from embedding.scene import Scene
 from embedding.solving.events import Listener, StepRecord
 from embedding.solving.path import planned_steps
 from embedding.studies.files import CaseFolder, write_whole
-from embedding.studies.record import RAISED, REFUSED, failure, record_of, without_nan
+from embedding.studies.record import RAISED, REFUSED, RESUMED, failure, record_of, without_nan
 
 if TYPE_CHECKING:
+    from embedding.solving import Solution
     from embedding.solving.problem import Problem
     from embedding.solving.state import State
 
@@ -41,17 +43,29 @@ def solve_case(path: str) -> None:
 
 def outcome(folder: CaseFolder, progress: Progress) -> dict[str, Any]:
     """The record of solving the scene of the folder; errors are records, too."""
-    from embedding.api import solve
-
     try:
         scene = Scene.from_toml(folder.scene.read_text(encoding="utf-8"))
-        start = folder.start.read_text(encoding="utf-8") if folder.start.exists() else None
-        return record_of(solve(scene, archive=folder.archive, start=start, throw=False, listeners=[progress]))
+        return record_of(solution_of(scene, folder, progress))
     except SceneError as error:
         return failure(REFUSED, str(error))
     except Exception as error:
         traceback.print_exc()
         return failure(RAISED, f"{type(error).__name__}: {error} (see {folder.log})")
+
+
+def solution_of(scene: Scene, folder: CaseFolder, progress: Progress) -> Solution:
+    """The solution: of the run whose archive an earlier attempt left, if it can go on, else from the start."""
+    from embedding.api import solve
+    from embedding.solving.session import OtherMeshError
+
+    if folder.archive.exists():
+        try:
+            found = solve(scene, resume=folder.archive, throw=False, listeners=[progress])
+            return replace(found, start=RESUMED)
+        except (ArchiveError, OtherMeshError):
+            traceback.print_exc()
+    start = folder.start.read_text(encoding="utf-8") if folder.start.exists() else None
+    return solve(scene, archive=folder.archive, start=start, throw=False, listeners=[progress])
 
 
 class Progress(Listener):

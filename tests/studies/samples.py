@@ -14,6 +14,7 @@ from typing import Any
 
 from embedding import Scene
 from embedding.studies import Study, cases_of
+from embedding.studies.files import read_json
 from tests.balloons import SMALLEST as SCENE
 
 PRESSURE = "loads.pressure_bottom"
@@ -59,3 +60,17 @@ def signals(folder: Path, sent: Mapping[str, signal.Signals]) -> Iterator[None]:
         over.set()
         watcher.join()
     assert forks == []
+
+
+def process_of(folder: Path, key: str) -> int:
+    """The number of the process that solves a case, as soon as it has accepted a step."""
+    while True:
+        told = read_json(folder / "cases" / key / "progress.json")
+        if told is not None and told["step"] > 0:
+            return int(told["process"])
+        time.sleep(0.01)
+
+
+def gone(process: int) -> bool:
+    status = Path(f"/proc/{process}/status")
+    return not status.exists() or "State:\tZ" in status.read_text()

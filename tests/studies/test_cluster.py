@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -14,9 +16,9 @@ import pytest
 
 from embedding.studies import Rows, StudyError, StudyResult, open_study, run_study
 from embedding.studies.cluster import solve_on_worker
-from embedding.studies.files import read_json
+from embedding.studies.files import StudyFolder
 from embedding.studies.index import read_index
-from tests.studies.samples import PRESSURE, keys, signals, study
+from tests.studies.samples import PRESSURE, gone, keys, process_of, signals, study
 from tests.studies.test_continuation import along
 from tests.studies.test_running import KILLED, LATE, begun, check_rows, mixed, stretch
 
@@ -63,21 +65,7 @@ def test_each_failure_is_a_row_on_dask_too(cluster: Any, tmp_path: Path) -> None
     assert [name for name, at in begun(folder, names).items() if at != before[name]] == names[:3]
 
 
-LONG = {PRESSURE: [500, 600], "path.0.steps": [300]}
-
-
-def process_of(folder: Path, key: str) -> int:
-    """The number of the process that solves a case, as soon as it has accepted a step."""
-    while True:
-        told = read_json(folder / "cases" / key / "progress.json")
-        if told is not None and told["step"] > 0:
-            return int(told["process"])
-        time.sleep(0.01)
-
-
-def gone(process: int) -> bool:
-    status = Path(f"/proc/{process}/status")
-    return not status.exists() or "State:\tZ" in status.read_text()
+LONG = {PRESSURE: [500, 600], "path.0.steps": [60]}
 
 
 @pytest.mark.slow
@@ -115,6 +103,22 @@ def test_the_end_of_the_study_ends_its_cases(cluster: Any, tmp_path: Path) -> No
         while not gone(case.result()):
             time.sleep(0.05)
     assert open_study(folder).rows[1].status == "missing"
+
+
+@pytest.mark.slow
+def test_a_study_that_is_killed_takes_its_cases_along(cluster: Any, tmp_path: Path) -> None:
+    """By the command line, whose process is killed; then the study is solved here."""
+    stated = study({PRESSURE: [500], "path.0.steps": [60]})
+    StudyFolder(tmp_path / "study").prepare(stated)
+    words = ["study", "study/study.toml", "--folder", "study", "--scheduler", cluster.scheduler_address]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    with subprocess.Popen([sys.executable, "-m", "embedding.cli", *words], cwd=tmp_path, env=environment) as command:
+        case = process_of(tmp_path / "study", keys(stated)[0])
+        command.kill()
+    while not gone(case):
+        time.sleep(0.05)
+    assert open_study(tmp_path / "study").counts() == {"missing": 1}
+    assert run_study(stated, tmp_path / "study", workers=1).counts() == {"done": 1}
 
 
 def test_no_scheduler_is_one_message(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +23,7 @@ from embedding.studies.files import CaseFolder, StudyFolder, write_case
 from embedding.studies.index import Index, read_index
 from embedding.studies.pool import death
 from embedding.studies.worker import Progress, outcome
-from tests.studies.samples import PRESSURE, balloon, keys, signals, study
+from tests.studies.samples import PRESSURE, balloon, keys, process_of, signals, study
 
 LIMIT = "2 kPa"
 """Above the limit pressure of the balloon, 1.24 kPa: no equilibrium."""
@@ -105,12 +106,46 @@ def carried_out(done: int, seconds: float, folder: Path) -> None:
 
 
 def test_each_failure_is_a_row_and_a_rerun_does_just_those(tmp_path: Path) -> None:
-    carried_out(2, 5.0, tmp_path / "study")
+    carried_out(2, 8.0, tmp_path / "study")
 
 
 @pytest.mark.slow
 def test_a_study_of_24_cases(tmp_path: Path) -> None:
     carried_out(21, 20.0, tmp_path / "study")
+
+
+def test_a_killed_case_goes_on_from_its_last_step(tmp_path: Path) -> None:
+    """To the last bit as without the kill; the steps that it had are not solved again."""
+    stated, folder = study({PRESSURE: [700], "path.0.steps": [30]}), tmp_path / "study"
+
+    def kill() -> None:
+        os.kill(process_of(folder, keys(stated)[0]), signal.SIGKILL)
+
+    with ThreadPoolExecutor(1) as threads:
+        killing = threads.submit(kill)
+        first = run_study(stated, folder)
+        killing.result()
+    assert first.counts() == {"killed": 1}
+    known = [step.wall_seconds for step in open_archive(first.archive(0)).steps]
+    assert 0 < len(known) < 30
+    last, whole = run_study(stated, folder), run_study(stated, tmp_path / "whole")
+    assert [(row.status, row.start) for row in (*last.rows, *whole.rows)] == [("done", "resumed"), ("done", "rest")]
+    archives = [open_archive(result.archive(0)) for result in (last, whole)]
+    assert [step.wall_seconds for step in archives[0].steps[: len(known)]] == known
+    assert archives[0].scalars["stretch"].tolist() == archives[1].scalars["stretch"].tolist()
+    assert last.rows[0].quantities == whole.rows[0].quantities
+
+
+def test_what_cannot_go_on_is_solved_again(tmp_path: Path) -> None:
+    """An archive that was left damaged."""
+    folder = StudyFolder(tmp_path).case("key")
+    write_case(folder, balloon())
+    folder.archive.write_bytes(b"nothing")
+    assert outcome(folder, Progress(folder))["start"] == "rest"
+    write_case(folder, balloon(), go_on=True)
+    assert folder.archive.exists()
+    write_case(folder, balloon())
+    assert [path.name for path in folder.path.iterdir()] == ["scene.toml"]
 
 
 def test_a_case_is_what_solve_gives(tmp_path: Path) -> None:

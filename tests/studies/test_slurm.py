@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from embedding.studies import run_study
-from tests.studies.samples import PRESSURE, keys, study
-from tests.studies.test_cluster import gone, process_of, same
+from tests.studies.samples import PRESSURE, gone, keys, process_of, study
+from tests.studies.test_cluster import same
 
 jobqueue = pytest.importorskip("dask_jobqueue")
 HERE = shutil.which("sinfo") and subprocess.run(["sinfo", "-h"], capture_output=True, timeout=30).stdout
@@ -23,7 +23,7 @@ HERE = shutil.which("sinfo") and subprocess.run(["sinfo", "-h"], capture_output=
 @pytest.mark.skipif(not HERE, reason="no SLURM answers here")
 def test_jobs_solve_the_study(tmp_path: Path) -> None:
     """The job that has the first case is cancelled; the table is that of one machine."""
-    stated = study({PRESSURE: [500, "2 kPa", 700], "path.0.steps": [200]})
+    stated = study({PRESSURE: [500, "2 kPa", 700], "path.0.steps": [60]})
     path = os.pathsep.join(filter(None, sys.path))
     cluster = jobqueue.SLURMCluster(
         cores=1, processes=1, memory="1GB", walltime="00:10:00", interface="lo", log_directory=str(tmp_path / "logs"),
