@@ -40,10 +40,10 @@ def same(one: StudyResult, other: StudyResult) -> bool:
 
 def test_dask_gives_the_table_of_one_machine(cluster: Any, tmp_path: Path) -> None:
     """Of a continuation, whose cases start from each other's archives."""
-    stated = along(PRESSURE, {PRESSURE: [500, "2 kPa"]})
+    stated = along(PRESSURE, {PRESSURE: [500, 600]})
     found = run_study(stated, tmp_path / "dask", scheduler=cluster.scheduler_address)
     here = run_study(stated, tmp_path / "here")
-    assert found.counts() == {"done": 1, "diverged": 1}
+    assert found.counts() == {"done": 2}
     assert [row.start for row in found.rows] == ["rest", "neighbour"]
     assert same(found, here)
     assert same(open_study(tmp_path / "dask"), found)
