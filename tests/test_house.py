@@ -12,7 +12,7 @@ import embedding
 ROOT = Path(embedding.__file__).parent
 FLOORS = (
     "errors", "scene", "geometry", "shell", "ambient", "coupling", "plan", "solving", "archive", "post", "view", "fit",
-    "api", "studies", "cli",
+    "api", "studies", "trade", "cli",
 )  # fmt: skip
 FILES = sorted(ROOT.rglob("*.py"))
 

@@ -244,6 +244,55 @@ def study(
 
 
 @app.command
+def trade(
+    scene: SceneFile,
+    /,
+    *,
+    folder: Annotated[Path | None, Parameter(help="Folder of the rungs' archives; default NAME.trade.")] = None,
+    overrides: Overrides = (),
+    of: Annotated[str | None, Parameter(help="Scalar to compare; default the one whose error is estimated.")] = None,
+    reference: Annotated[float | None, Parameter(help="Its exact value, SI; default that of the finest rung.")] = None,
+    seconds: Annotated[float, Parameter(help="Longest wall time of a rung.")] = 600.0,
+    csv: Annotated[Path | None, Parameter(help="Also write the table into this CSV file.")] = None,
+    picture: Annotated[Path | None, Parameter(help="Also draw error against time into this PNG file.")] = None,
+    as_json: AsJson = False,
+    progress: Annotated[bool, Parameter(help="Show the progress on standard error.")] = True,
+) -> None:
+    """Measure what accuracy costs: solve a scene with other orders, meshes and models, and compare.
+
+    Each rung has a process of its own, one after the other; what the folder has already is not solved again.
+    """
+    from embedding.scene import load_scene
+
+    if not seconds > 0:
+        raise UsageError(f"--seconds: {seconds:g} is not allowed: must be greater than 0")
+    if csv is not None:
+        check_output("--csv", csv, ".csv")
+    if picture is not None:
+        check_output("--picture", picture, ".png")
+    stated = load_scene(scene, overrides)
+
+    from embedding.cli.trade import print_trade, trade_summary
+    from embedding.trade import measure_trade
+    from embedding.trade.chart import trade_plot
+
+    place = default_archive(stated.name).with_suffix(".trade") if folder is None else folder
+    found = measure_trade(
+        stated, place, quantity=of, reference=reference, seconds=seconds, progress=progress and not as_json
+    )
+    if csv is not None:
+        with whole_file(csv) as file:
+            found.to_csv(file)
+    if picture is not None:
+        with whole_file(picture) as file:
+            trade_plot(found, file)
+    if as_json:
+        print_json(trade_summary(found))
+    else:
+        print_trade(found)
+
+
+@app.command
 def table(
     folder: Annotated[Path, Parameter(help="Folder written by `embedding study`.")],
     /,

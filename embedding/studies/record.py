@@ -36,7 +36,10 @@ def record_of(solution: Solution) -> dict[str, Any]:
         "start": solution.start,
         "iterations": solution.iterations,
         "estimated_error": None if solution.error is None else solution.error.value,
+        "estimated": None if solution.error is None else solution.error.quantity,
         "seconds": solution.cost.wall_seconds,
+        "cpu_seconds": solution.cost.cpu_seconds,
+        "unknowns": solution.cost.unknowns,
         "peak_memory_bytes": solution.cost.peak_memory_bytes,
     }
 
