@@ -9,9 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from embedding import load_scene, solve
 from embedding.archive import Recorder
 from embedding.errors import ArchiveError
 from embedding.post import PostError, flux, line, probe, probe_shell
+from problems import cantilever_moment
 from tests.archive.made_up_run import LENGTH, VOLTAGE, Problem, tell
 from tests.post import runs
 
@@ -178,3 +180,14 @@ def test_tables(tmp_path: Path) -> None:
     text = table.to_csv(tmp_path / "t.csv").read_text().splitlines()
     assert text[0].startswith("step,factor_mechanical,factor_field,point,x [m],y [m],z [m],where,phi [V],E_x [V/m]")
     assert text[2].endswith("beyond the meshed space,,,,,")
+
+
+def test_a_moment_given_at_an_end_is_shown_there(tmp_path: Path) -> None:
+    """A strip under a moment at its end alone carries that moment everywhere."""
+    scene = load_scene(Path(cantilever_moment.__file__).with_suffix(".toml"))
+    solve(scene, archive=tmp_path / "run.vtkhdf", progress=False)
+    places = [[x, 0.0, 0.0] for x in (0.0, 5.5, 12.0)]
+    table = probe_shell(tmp_path / "run.vtkhdf", places, fields=["moment_major", "moment_minor"])
+    given = scene.loads.edge_moments[0].moment * table["factor_mechanical"]
+    largest = np.maximum(np.abs(table["moment_major"]), np.abs(table["moment_minor"]))
+    np.testing.assert_allclose(largest, np.abs(given), rtol=2e-3)
