@@ -13,9 +13,9 @@ UNITS = {
 EXTENSIVE = {
     "field_energy": "J", "elastic_energy": "J", "load_work": "J", "support_work": "J", "held_force": "N",
 }  # fmt: skip
-OF_PARTS = {"voltage": "V", "charge": "C", "force": "N", "torque": "N m"}
+OF_PARTS = {"voltage": "V", "charge": "C", "potential": "A", "flux": "Wb", "force": "N", "torque": "N m"}
 """Of the shell, of its film, of a body, along an axis: ``charge_body0``, ``torque_z``."""
-PER_LENGTH = {"J": "J/m", "N": "N/m", "C": "C/m", "N m": "N"}
+PER_LENGTH = {"J": "J/m", "N": "N/m", "C": "C/m", "Wb": "Wb/m", "N m": "N"}
 
 
 def scalar_unit(name: str, per_length: bool = False) -> str:

@@ -13,20 +13,22 @@ import numpy as np
 import numpy.typing as npt
 
 from embedding.archive import Archive
+from embedding.post.conductors import conductors
 from embedding.post.faces import Face
 from embedding.post.integrals import closed, enclosed
 from embedding.post.measure import Measure
 from embedding.post.patches import Patch
-from embedding.post.path import cubic, explicit, trapezoidal
+from embedding.post.path import apart, cubic, explicit, trapezoidal
 from embedding.post.probe import Source, opened
 from embedding.post.space import Space
 from embedding.post.table import PostError, Table
 from embedding.scene import Scene
 
 Floats = npt.NDArray[np.float64]
+SAME_LOAD = 1e-9
 NOTES = (
     "residual: stored less work, by the trapezoidal rule; path_error: how far that rule is from cubic curves through"
-    " the steps; residual_cubic: stored less work by those curves",
+    " the steps, unknown after a stage of one step; residual_cubic: stored less work by those curves",
 )
 
 
@@ -47,8 +49,8 @@ def energy_balance(archive: Source) -> Table:
     on charges), each where there is such a thing, and ``work``, their sum, by the trapezoidal rule; ``work_explicit``,
     with the forces at the beginning of each step, off by terms of first order; ``work_cubic``; ``residual``,
     ``residual_explicit``, ``residual_cubic``, stored less work; ``path_error``, the sum over the steps of how far the
-    trapezoidal rule is from the cubic curves. A run that does not begin at rest (prestretched, magnetised) is counted
-    from its first step.
+    trapezoidal rule is from the cubic curves, nan after a stage with too few steps to tell. A run that does not begin
+    at rest (prestretched, magnetised) is counted from its first step.
 
     Raises:
         PostError: no step, or work that the archive does not tell: of applied fields, of forces that follow an edge, of
@@ -59,7 +61,7 @@ def energy_balance(archive: Source) -> Table:
     scene = run.scene_object()
     _refuse(run, scene)
     contributions = _contributions(run, scene)
-    stages = [step.stage for step in run.steps]
+    stages = _stages(run, scene)
     if _at_rest(scene):
         stages = [stages[0], *stages]
         first = 1
@@ -74,8 +76,9 @@ def energy_balance(archive: Source) -> Table:
         increments = {name: _by_stages(name, one, stages) for name in works}
         for name, values in increments.items():
             works[name][1:] += np.cumsum(values)
-        away += np.abs(increments["cubic"] - increments["trapezoidal"])
-        columns[f"work_{one.name}"] = _from_first(np.cumsum(increments["trapezoidal"]), first)
+        away += _by_stages("apart", one, stages)
+        done = _from_first(np.cumsum(increments["trapezoidal"]), first)
+        columns[f"work_{one.name}"] = columns.get(f"work_{one.name}", 0.0) + done
     columns["work"] = works["trapezoidal"][first:]
     columns |= {f"work_{name}": works[name][first:] for name in ("explicit", "cubic")}
     columns["residual"] = columns["stored"] - start - columns["work"]
@@ -90,10 +93,25 @@ def energy_balance(archive: Source) -> Table:
     return Table(known | columns, dict.fromkeys(columns, unit), NOTES)
 
 
-RULES = {rule.__name__: rule for rule in (trapezoidal, explicit, cubic)}
+RULES = {rule.__name__: rule for rule in (trapezoidal, explicit, cubic, apart)}
 
 
-def _by_stages(rule: str, one: Contribution, stages: list[str]) -> Floats:
+def _stages(run: Archive, scene: Scene) -> list[int]:
+    """The number of every step's stage. Stages may share a name: one ends where its loads are first met."""
+    numbers, number, path = [], 0, scene.path
+    for step in run.steps:
+        while number + 1 < len(path) and path[number].name != step.stage:
+            number += 1
+        numbers.append(number)
+        stage = path[number]
+        gaps = step.factor_mechanical - stage.mechanical, step.factor_field - stage.field
+        ends_at_loads = stage.until is None and stage.volume_ratio is None
+        if ends_at_loads and max(map(abs, gaps)) <= SAME_LOAD and number + 1 < len(path):
+            number += 1
+    return numbers
+
+
+def _by_stages(rule: str, one: Contribution, stages: list[int]) -> Floats:
     """Increments of the work; a path may have a kink where a stage begins, and no curve goes across it."""
     ends = [0, *(i for i in range(1, len(stages) - 1) if stages[i + 1] != stages[i]), len(stages) - 1]
     pieces = [slice(begin, end + 1) for begin, end in zip(ends[:-1], ends[1:], strict=True)]
@@ -121,10 +139,10 @@ def _refuse(run: Archive, scene: Scene) -> None:
 
 
 def _at_rest(scene: Scene) -> bool:
-    """Does the path begin without stress and without field?"""
+    """Does the path begin without stress and without field? Magnets and electrets have theirs from the start."""
     shell = scene.shell
     bodies = () if scene.ambient is None else scene.ambient.bodies
-    magnets = [getattr(part, "remanence", None) for part in (shell, *bodies)]
+    magnets = [*shell.carried.values(), *(getattr(body, "remanence", None) for body in bodies)]
     still = all(magnet is None or magnet == (0.0, 0.0, 0.0) for magnet in magnets)
     return still and getattr(shell.shape, "axial_stretch", 1.0) == 1.0
 
@@ -133,21 +151,14 @@ def _stored(run: Archive) -> dict[str, Floats]:
     scalars = run.scalars
     stored = {"elastic_energy": scalars["elastic_energy"]}
     if "field_energy" in scalars:
-        pairs = [scalars[voltage] * scalars[charge] for voltage, charge in _sources(run)]
+        pairs = [one.voltage * one.charge for one in conductors(run)]
         stored["field_energy"] = sum(pairs, np.zeros(len(run))) - scalars["field_energy"]
     return stored | {"stored": sum(stored.values(), np.zeros(len(run)))}
 
 
-def _sources(run: Archive) -> list[tuple[str, str]]:
-    """Names of the voltage and the charge of every conductor."""
-    voltages = [name for name in run.scalars if name.split("_")[0] == "voltage"]
-    pairs = [(name, name.replace("voltage", "charge", 1)) for name in voltages]
-    return [pair for pair in pairs if pair[1] in run.scalars]
-
-
 def _contributions(run: Archive, scene: Scene) -> list[Contribution]:
     scalars = run.scalars
-    found = [_contribution("sources", scalars[voltage], scalars[charge]) for voltage, charge in _sources(run)]
+    found = [_contribution("sources", one.voltage, one.charge) for one in conductors(run)]
     if "load_work" in scalars:
         found.append(_contribution("loads", scalars["factor_mechanical"], scalars["load_work"]))
     if "support_work" in scalars:

@@ -16,11 +16,12 @@ import numpy.typing as npt
 
 from embedding.archive import Archive
 from embedding.archive.units import PER_LENGTH
+from embedding.post.conductors import at_infinity, capacitances
 from embedding.post.faces import Face
 from embedding.post.measure import Measure, estimated
 from embedding.post.patches import FACES, Patch
 from embedding.post.probe import Source, opened
-from embedding.post.space import AXES, Space
+from embedding.post.space import AXES, Space, centre_of_outer
 from embedding.post.table import Table, stacked
 from embedding.scene import Ambient, Scene
 
@@ -41,10 +42,10 @@ def integrals(archive: Source, *, steps: Sequence[int] | None = None) -> Table:
       mechanical ones included, N and N m; components that symmetry makes zero are left out;
     * electric: ``charge_top``, ``charge_bottom``, the flux of the flux density out of each face, C; magnetic:
       ``flux_top``, ``flux_bottom``, Wb;
-    * ``capacitance``, ``capacitance_body0`` ..., recorded charge over recorded voltage of each conductor, F; the error
-      of the shell's is how far the charges above are from the recorded one;
-    * ``field_energy`` of the space around and inside the shell (not of its material), with what is beyond the mesh of
-      free space, J; left out with an applied field, whose own energy is infinite.
+    * ``capacitance``, ``capacitance_body0`` ..., recorded charge over recorded voltage of each conductor, F (of poles
+      ``permeance_body0`` ..., H); the error of the shell's is how far the charges above are from the recorded one;
+    * ``field_energy`` of the space around and inside the shell (not of its material nor of bodies), with what is beyond
+      the mesh of free space, J; left out with an applied field, whose own energy is infinite.
 
     Raises:
         PostError: no step was accepted.
@@ -64,7 +65,8 @@ def _row(run: Archive, step: int) -> Table:
     parts = {**_of_the_shell(run, step), **_of_the_faces(run, step)}
     if "outside" in run.blocks:
         parts |= _of_the_space(run, step)
-    parts |= _capacitances(run, step, parts)
+    faces = [parts[name][0] for name in ("charge_top", "charge_bottom") if name in parts]
+    parts |= capacitances(run, step, sum(faces) if faces else math.nan)
     columns = {
         "step": np.array([step + 1]),
         "factor_mechanical": np.array([run.steps[step].factor_mechanical]),
@@ -75,23 +77,12 @@ def _row(run: Archive, step: int) -> Table:
     return Table(columns)
 
 
-def _capacitances(run: Archive, step: int, parts: dict[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
-    """Charge over voltage of every conductor that has both; nan at no voltage."""
-    found = {}
-    for voltage in [name for name in run.scalars if name.split("_")[0] == "voltage"]:
-        volts = float(run.scalars[voltage][step])
-        coulombs = float(run.scalars.get(voltage.replace("voltage", "charge", 1), np.full(len(run), math.nan))[step])
-        suffix, off = voltage.removeprefix("voltage"), math.nan
-        if not suffix and {"charge_top", "charge_bottom"} <= parts.keys():
-            off = abs(parts["charge_top"][0] + parts["charge_bottom"][0] - coulombs)
-        found[f"capacitance{suffix}"] = (coulombs / volts, off / abs(volts)) if volts else (math.nan, math.nan)
-    return found
-
-
 def _unit(name: str, plane: bool) -> str:
     stem = name.removesuffix("_error").split("_")[0]
-    units = {"area": ("m^2", "m"), "volume": ("m^3", "m^2"), "flux": ("Wb", "Wb/m"), "capacitance": ("F", "F/m")}
-    one = {"force": "N", "torque": "N m", "charge": "C", "field": "J"}.get(stem)
+    units = {
+        "area": ("m^2", "m"), "volume": ("m^3", "m^2"), "capacitance": ("F", "F/m"), "permeance": ("H", "H/m"),
+    }  # fmt: skip
+    one = {"force": "N", "torque": "N m", "charge": "C", "flux": "Wb", "field": "J"}.get(stem)
     if one is not None:
         return PER_LENGTH[one] if plane else one
     return units[stem][plane]
@@ -200,17 +191,17 @@ def _through(face: Face, medium: Medium) -> tuple[float, float]:
     return value, _at_least(error, abs(value + constant * _beside(face.patch, medium.strength)))
 
 
-def _beside(surface: Patch, field: str, weight: str | None = None) -> float:
+def _beside(surface: Patch, field: str, weight: Floats | None = None) -> float:
     """A second way to the flux of a field without divergence out of the block of a ``surface``, times another field.
 
-    It is the integral of the field times the gradient of what is ``weight`` (default: 1) on the surface and 0 at all
-    other nodes, over the cells that touch it.
+    It is the integral of the field times the gradient of what is the nodal ``weight`` (default: 1) on the surface and 0
+    at all other nodes, over the cells that touch it.
     """
     block = surface.block
     touching = np.isin(block.cells, surface.cells).any(axis=1)
     measure = Measure(Patch(block, surface.step, surface.space, block.cells[touching], True))
     on_it, nodes = np.zeros(len(block.points)), np.unique(surface.cells)
-    on_it[nodes] = 1.0 if weight is None else block.field(weight, surface.step)[nodes]
+    on_it[nodes] = 1.0 if weight is None else weight[nodes]
     strength = measure.at_points(block.field(field, surface.step))
     return float(measure.by_cell(np.einsum("cpx,cpx->cp", strength, measure.gradient(on_it))).sum())
 
@@ -223,7 +214,7 @@ def _energy(run: Archive, step: int, medium: Medium) -> tuple[float, float]:
     sides = [Patch.of(run, side, step) for side in medium.constants]
     pairs = [_stored(patch, medium) for patch in sides]
     if _ambient(run.scene_object()).outer == "free-space":
-        pairs.append(_beyond(sides[0], medium))
+        pairs.append(_beyond(sides[0], medium, centre_of_outer(run), at_infinity(run, step)))
     return sum(value for value, _ in pairs), sum(error for _, error in pairs)
 
 
@@ -233,21 +224,24 @@ def _stored(patch: Patch, medium: Medium) -> tuple[float, float]:
     return estimated(patch, lambda m: half * m.by_cell((m.at_points(strength) ** 2).sum(axis=2)))
 
 
-def _beyond(outside: Patch, medium: Medium) -> tuple[float, float]:
-    """The energy beyond the outer boundary: half of the flux through it times the potential (Green's identity)."""
+def _beyond(outside: Patch, medium: Medium, centre: Floats, infinity: float) -> tuple[float, float]:
+    """The energy beyond the outer boundary around ``centre``: half of its flux times the potential less that at
+    ``infinity`` (Green's identity)."""
     boundary = outside.boundary
-    radius = np.linalg.norm(boundary.nodes, axis=1)
+    radius = np.linalg.norm(boundary.nodes - centre, axis=1)
     outer = boundary.part((radius[boundary.cells] > OUTER * radius.max()).all(axis=1))
     if not len(outer.cells):
         return 0.0, math.nan
-    strength, potential = (outer.block.field(name, outer.step) for name in (medium.strength, "phi"))
+    strength = outer.block.field(medium.strength, outer.step)
+    potential = np.asarray(outer.block.field("phi", outer.step), float) - infinity
 
     half = 0.5 * medium.constants["outside"]
 
     def energy(measure: Measure) -> Floats:
-        outward = measure.normals * np.sign(np.einsum("cpx,cpx->cp", measure.normals, measure.points))[..., None]
+        away = measure.points - centre
+        outward = measure.normals * np.sign(np.einsum("cpx,cpx->cp", measure.normals, away))[..., None]
         through = np.einsum("cpx,cpx->cp", measure.at_points(strength), outward)
         return half * measure.by_cell(through * measure.at_points(potential))
 
     value, error = estimated(outer, energy)
-    return value, _at_least(error, abs(value - half * _beside(outer, medium.strength, "phi")))
+    return value, _at_least(error, abs(value - half * _beside(outer, medium.strength, potential)))

@@ -13,7 +13,7 @@ from embedding.archive import Archive, open_archive
 from embedding.post.faces import half_thickness
 from embedding.post.locate import Found
 from embedding.post.patches import SIDES, Patch, side_named
-from embedding.post.space import Places, Space
+from embedding.post.space import Places, Space, centre_of_outer
 from embedding.post.table import PostError, Table, stacked
 
 Floats = npt.NDArray[np.float64]
@@ -243,14 +243,15 @@ def _distance(shell: Patch, points: Floats, asked: npt.NDArray[np.bool_]) -> Flo
 
 def _reasons(run: Archive, patches: dict[str, Patch], points: Floats, in_shell: npt.NDArray[np.bool_]) -> list[str]:
     """Why points were not found in any of the blocks."""
-    outer = max(float(np.linalg.norm(patch.nodes, axis=1).max()) for patch in patches.values())
+    centre = centre_of_outer(run)
+    outer = max(float(np.linalg.norm(patch.nodes - centre, axis=1).max()) for patch in patches.values())
     if len(patches) == 1:
         others = [Patch.of(run, side, next(iter(patches.values())).step) for side in SIDES if side not in patches]
         elsewhere = np.any([other.find(points).hit for other in others], axis=0)
-        outer = max(outer, *(float(np.linalg.norm(other.nodes, axis=1).max()) for other in others))
+        outer = max(outer, *(float(np.linalg.norm(other.nodes - centre, axis=1).max()) for other in others))
     else:
         elsewhere = np.zeros(len(points), bool)
-    far = np.linalg.norm(points, axis=1) > 0.999 * outer
+    far = np.linalg.norm(points - centre, axis=1) > 0.999 * outer
     words = np.where(far, BEYOND, np.where(in_shell, IN_SHELL, np.where(elsewhere, OTHER_SIDE, IN_BODY)))
     return [str(word) for word in words]
 

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from embedding.archive import Archive
+from embedding.scene.checks_field import centre_of_space
 
 Floats = npt.NDArray[np.float64]
 AXES = "xyz"
@@ -58,6 +59,13 @@ class Space:
             moved = moved * (1.0, 1.0, 0.0)
         odd = [AXES.index(plane) for plane in self.odd if plane in self.mirrors]
         return Places(moved, flips, flips[:, odd].prod(axis=1), turn)
+
+
+def centre_of_outer(archive: Archive) -> Floats:
+    """The centre of the sphere (plane strain: circle) where the meshed space ends, (3,) in m."""
+    centre = np.zeros(3)
+    centre[Space.of(archive).axes[-1]] = centre_of_space(archive.scene_object())
+    return centre
 
 
 @dataclass(frozen=True)

@@ -61,6 +61,11 @@ class Scales:
         return self.stress * self.volume
 
     @property
+    def magnetic(self) -> bool:
+        """Is the field a magnetic one?"""
+        return self.permittivity == MU_0
+
+    @property
     def field(self) -> float:
         """V/m, or A/m for a magnetic scene: the field whose Maxwell stress is of the size of ``stress``."""
         return sqrt(self.stress / self.permittivity)

@@ -239,13 +239,15 @@ class State:
         return named | self._forces()
 
     def _conductors(self, potential: PotentialSolve) -> dict[str, float]:
-        """Voltages and charges: of the shell (base voltage, charge of both faces), of its film, of other bodies."""
+        """Voltages and charges: of the shell (base voltage, charge of both faces), of its film, of other bodies. Of the
+        poles in a magnetic field potentials in A, and the flux that leaves them."""
         volts, coulombs = self._scales.potential, self._scales.flux_density * self._scales.length ** (self._lengths - 1)
+        level, content = ("potential", "flux") if self._scales.magnetic else ("voltage", "charge")
         named: dict[str, float] = {}
         for conductor in potential.conductors:
             suffix = {"shell": "", "jump": "_jump"}.get(conductor.label, f"_{conductor.label}")
-            named[f"voltage{suffix}"] = volts * potential.voltage(conductor)
-            named[f"charge{suffix}"] = coulombs * potential.charge(conductor)
+            named[f"{level}{suffix}"] = volts * potential.voltage(conductor)
+            named[f"{content}{suffix}"] = coulombs * potential.charge(conductor)
         return named
 
     def _forces(self) -> dict[str, float]:

@@ -21,4 +21,5 @@ def test_no_scalar_without_its_unit() -> None:
     assert scalar_unit("held_force", per_length=True) == "N/m"
     assert [scalar_unit(name) for name in ("voltage_jump", "charge_body0", "force_body1_x", "torque_z")] == [
         "V", "C", "N", "N m"]  # fmt: skip
-    assert scalar_unit("torque_z", per_length=True) == "N"
+    assert [scalar_unit(name) for name in ("potential_body0", "flux_body0")] == ["A", "Wb"]
+    assert scalar_unit("torque_z", per_length=True) == "N" and scalar_unit("flux_body0", per_length=True) == "Wb/m"

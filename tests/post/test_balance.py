@@ -13,6 +13,7 @@ from embedding.post import PostError, Table, energy_balance
 from problems import charged_balloon
 from tests.balloons import SMALL
 from tests.bent import clamped, mesh, metal, scene_of
+from tests.post import runs
 
 PROBLEMS = Path(charged_balloon.__file__).parent
 STRIP = scene_of(
@@ -102,6 +103,45 @@ def test_a_charged_balloon_in_free_space(tmp_path: Path) -> None:
     assert worst(coarse, "residual") / worst(fine, "residual") == pytest.approx(4.0, abs=0.4)
     assert worst(fine, "residual_cubic") < 1e-4
     assert worst(fine, "residual") < 3e-3
+
+
+@pytest.mark.parametrize(("shell", "ground"), [(20e3, 0.0), (0.0, -20e3)], ids=["charged shell", "charged ground"])
+def test_a_voltage_over_a_half_space(shell: float, ground: float, tmp_path: Path) -> None:
+    """Nothing moves: the source gives C V^2, as little as it matters which of both has the voltage."""
+    runs.over_ground(tmp_path, shell, ground)
+    table, energy = energy_balance(tmp_path / "ground.vtkhdf"), runs.over_ground_exact(20e3).energy
+    assert table["field_energy"][-1] == pytest.approx(energy, rel=1e-5)
+    assert table["work_sources"][-1] == pytest.approx(energy, rel=1e-5)
+    np.testing.assert_array_equal(table["work_sources"], table["work"])
+    assert np.abs(table["residual"]).max() < 1e-9 * energy
+
+
+def test_stages_may_share_a_name(tmp_path: Path) -> None:
+    """There and back: no curve goes around the kink."""
+    scene = STRIP.with_overrides(["path=[{steps=6, control='load'}, {steps=6, control='load', mechanical=0.0}]"])
+    solve(scene, archive=tmp_path / "run.vtkhdf", progress=False)
+    table = energy_balance(tmp_path / "run.vtkhdf")
+    assert worst(table, "residual_cubic") < 2e-4
+    assert (np.abs(table["residual"]) <= 1.5 * table["path_error"] + 1e-6 * table["stored"].max()).all()
+
+
+def test_one_step_does_not_tell_its_error(tmp_path: Path) -> None:
+    table = balanced(STRIP, 1, tmp_path)
+    assert worst(table, "residual") > 0.05
+    assert np.isnan(table["path_error"]).all()
+    for steps in (2, 3):
+        table = balanced(STRIP, steps, tmp_path)
+        assert (np.abs(table["residual"]) <= 1.5 * table["path_error"]).all()
+
+
+def test_an_electret_does_not_begin_at_rest(tmp_path: Path) -> None:
+    """Its field is there before any load: the balance counts from the first step."""
+    text = runs.SOFT.split("[ambient]")[0] + 'polarisation = [0.0, 0.0, 2e-5]\n[ambient]\nfield = "electric"\n'
+    text += '[loads]\npressure_bottom = "500 Pa"\n[[path]]\nsteps = 6\n'
+    solve(Scene.from_toml(text), archive=tmp_path / "run.vtkhdf", progress=False)
+    table = energy_balance(tmp_path / "run.vtkhdf")
+    assert table["work"][0] == 0.0 and table["field_energy"][0] > 1e-5
+    assert worst(table, "residual_cubic") < 1e-6
 
 
 def test_a_given_charge(tmp_path: Path) -> None:

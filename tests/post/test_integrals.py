@@ -72,6 +72,32 @@ def test_a_charged_sphere(tmp_path: Path) -> None:
     assert (table["capacitance_error"] < 1e-3 * table["capacitance"]).all()
 
 
+@pytest.mark.parametrize(("shell", "ground"), [(20e3, 0.0), (0.0, -20e3)], ids=["charged shell", "charged ground"])
+def test_a_sphere_over_a_conducting_half_space(shell: float, ground: float, tmp_path: Path) -> None:
+    """W = C V^2 / 2 and F = V^2 C' / 2 of only the voltage between them, with the energy beyond the outer boundary,
+    which is around the point of the surface below the shell. (W. R. Smythe, Static and Dynamic Electricity, 5.08)"""
+    solution = runs.over_ground(tmp_path, shell, ground)
+    table = integrals(tmp_path / "ground.vtkhdf", steps=[-1])
+    exact = runs.over_ground_exact(abs(shell - ground))
+    assert abs(table["field_energy"][0] - exact.energy) <= table["field_energy_error"][0] < 0.01 * exact.energy
+    assert table["force_z"][0] == pytest.approx(exact.force, rel=1e-4)
+    name = "capacitance" if shell else "capacitance_body0"
+    assert table[name][0] == pytest.approx(exact.capacitance, rel=1e-4)
+    assert abs(solution["charge_body0"][-1]) < 0.9 * exact.capacitance * 20e3, "the part within the radius"
+
+
+def test_poles_have_a_permeance(tmp_path: Path) -> None:
+    """Two poles at +-U in a grounded box of space: W = sum of U Phi / 2, in H and Wb."""
+    solution = solve(Scene.from_toml(runs.POLES), archive=tmp_path / "poles.vtkhdf", progress=False)
+    table = integrals(tmp_path / "poles.vtkhdf")
+    flux = [solution[f"flux_body{number}"][0] for number in (0, 1)]
+    assert flux[0] == pytest.approx(-flux[1], rel=1e-4)
+    assert runs.POLE * (flux[0] - flux[1]) / 2 == pytest.approx(solution["field_energy"][0], rel=1e-6)
+    assert table["permeance_body0"][0] == pytest.approx(flux[0] / runs.POLE)
+    assert table.units["permeance_body0"] == "H" and "capacitance_body0" not in table
+    assert open_archive(tmp_path / "poles.vtkhdf").scalar_units["potential_body1"] == "A"
+
+
 def test_the_solver_and_the_fields_agree(tmp_path: Path) -> None:
     archive = open_archive(runs.sphere(tmp_path, 0.3, runs.SOFT))
     table, scalars = integrals(archive), archive.scalars
