@@ -80,14 +80,14 @@ def _record(future: Any) -> Record:
     """What a task brought back, or why it did not."""
     from distributed import CancelledError, KilledWorker
 
-    error = future.exception()
-    if error is None:
+    try:
         return dict(future.result())
-    if isinstance(error, KilledWorker):
+    except KilledWorker:
         return failure(KILLED, "every dask worker that it was given to was lost")
-    if isinstance(error, CancelledError):
+    except CancelledError:
         return failure(KILLED, "the dask scheduler dropped it, or was lost itself")
-    return failure(RAISED, f"{type(error).__name__}: {error}")
+    except Exception as error:
+        return failure(RAISED, f"{type(error).__name__}: {error}")
 
 
 def solve_on_worker(path: str, seconds: float | None) -> Record:

@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ import pytest
 
 from embedding.studies import Rows, StudyError, StudyResult, open_study, run_study
 from embedding.studies.cluster import solve_on_worker
-from embedding.studies.files import StudyFolder
+from embedding.studies.files import StudyFolder, read_json
 from embedding.studies.index import read_index
 from tests.studies.samples import PRESSURE, gone, keys, process_of, signals, study
 from tests.studies.test_continuation import along
@@ -119,6 +120,33 @@ def test_a_study_that_is_killed_takes_its_cases_along(cluster: Any, tmp_path: Pa
         time.sleep(0.05)
     assert open_study(tmp_path / "study").counts() == {"missing": 1}
     assert run_study(stated, tmp_path / "study", workers=1).counts() == {"done": 1}
+
+
+@pytest.mark.slow
+def test_a_lost_scheduler_ends_the_study_with_its_reason(tmp_path: Path) -> None:
+    """Its cases end, and go on in the next run."""
+    stated, folder = study({PRESSURE: [500], "path.0.steps": [200]}), tmp_path / "study"
+    command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
+    at = tmp_path / "scheduler.json"
+    with ExitStack() as stack:
+        scheduler = stack.enter_context(subprocess.Popen([*command, "--no-dashboard", "--scheduler-file", str(at)]))
+        stack.callback(scheduler.kill)
+        command = [sys.executable, "-m", "distributed.cli.dask_worker", "--scheduler-file", str(at), "--nthreads", "1"]
+        worker = stack.enter_context(subprocess.Popen([*command, "--no-dashboard", "--local-directory", str(tmp_path)]))
+        stack.callback(worker.terminate)
+        while (told := read_json(at)) is None:
+            time.sleep(0.05)
+        threads = stack.enter_context(ThreadPoolExecutor(1))
+        case = threads.submit(process_of, folder, keys(stated)[0])
+        case.add_done_callback(lambda _: scheduler.kill())
+        result = run_study(stated, folder, scheduler=told["address"])
+    (row,) = result.rows
+    assert (row.status, row.reason) == ("killed", "the dask scheduler dropped it, or was lost itself")
+    while not gone(case.result()):
+        time.sleep(0.05)
+    last = run_study(stated, folder)
+    assert (last.rows[0].status, last.rows[0].start) == ("done", "resumed")
+    assert last.rows[0].quantities["stretch"] == pytest.approx(stretch(500.0), rel=2e-4)
 
 
 def test_no_scheduler_is_one_message(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
