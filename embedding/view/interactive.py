@@ -1,7 +1,7 @@
 """A run as one page for a browser: the deformed shell to be turned by hand, its fields and its steps to choose from.
 
 The page holds everything it needs, and asks for nothing: about 150 lines of WebGL stand in the file beside this one.
-Libraries that do the same bring megabytes with them (plotly.js alone 4.5), or a server.
+Libraries that do the same bring megabytes with them (plotly), or a server.
 """
 
 from __future__ import annotations

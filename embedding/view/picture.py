@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from embedding.archive import Archive, open_archive
+from embedding.scene.scales import EPSILON_0
 from embedding.view.colours import FIELD_COLOURS, SHELL_COLOURS, Limits, colour_limits
 from embedding.view.drawing import PIXELS, Canvas, Drawing, Frame
 from embedding.view.labels import quantity, round_length
@@ -27,6 +28,7 @@ MOVED = 0.02  # how far a shell must have moved, relative to its size, for its o
 BENT = 0.05  # how little a shell is stretched, relative to how far it has moved, for its displacement to be shown
 SPACED = 0.5  # the size that the spacing of lines in an animation is meant for, in radii of its frame
 MORE = 1.5  # from which part of the range of colours on a value above it is told of
+UNFELT = 1e-5  # of the field that a voltage would make: what is left beside a shell whose field is all in its wall
 ROUNDING = 1e-7  # relative to the scales of a run
 CAPTION = {
     "voltage": "voltage",
@@ -101,6 +103,8 @@ class StepView:
             return StepView(archive, step, field, None, surface, size, ())
         name = ambient_field or vector_field(archive.block("outside", step))
         planes = planes_with_field(archive, name, step, radius or reach * size)
+        if name in ("E", "D") and max(plane.strength for plane in planes) < UNFELT * _driving(archive, name, step):
+            return StepView(archive, step, field, None, surface, size, ())
         return StepView(archive, step, field, name, surface, size, tuple(planes))
 
     def limits(self, views: Sequence[StepView]) -> tuple[Limits, Limits | None]:
@@ -187,11 +191,18 @@ def noise_of(archive: Archive, unit: str) -> float:
     return ROUNDING * (size | {"V/m": scales.field, "A/m": scales.field}).get(unit, 1.0)
 
 
+def _driving(archive: Archive, name: str, step: int) -> float:
+    """The field that the largest voltage of a step would make over the size of the shell, in the unit of ``name``."""
+    volts = [abs(values[step]) for scalar, values in archive.scalars.items() if scalar.startswith("voltage")]
+    strength = max(volts, default=0.0) / archive.scales.length
+    return float(strength * (EPSILON_0 if name == "D" else 1.0))
+
+
 def caption_of(archive: Archive, step: int) -> str:
     """Which step, and the scalars that say something about it."""
     parts = [f"step {step + 1} of {len(archive)}"]
     for name, words in CAPTION.items():
         value = float(archive.scalars.get(name, np.zeros(len(archive)))[step])
-        if np.isfinite(value) and value != 0.0:
+        if np.isfinite(value) and abs(value) > noise_of(archive, archive.scalar_units.get(name, "1")):
             parts.append(f"{words} {quantity(value, archive.scalar_units[name])}")
     return "  ·  ".join(parts)

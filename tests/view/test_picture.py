@@ -18,8 +18,10 @@ from embedding.archive import Recorder, open_archive
 from embedding.errors import ArchiveError
 from embedding.view import RenderError, can_render, history_plot, picture, rendering
 from embedding.view.colours import colour_limits
+from embedding.view.picture import StepView
 from embedding.view.section import cropped, sections
 from embedding.view.surface import shell_surface
+from problems import dielectric_balloon
 from tests.archive.made_up_run import LENGTH, RADIUS, Problem, tell
 
 REDUCTIONS = ("axisymmetric", "plane-strain", "3d")
@@ -192,3 +194,14 @@ def test_where_nothing_can_be_drawn_it_is_said(tmp_path: Path, monkeypatch: pyte
 def test_ranges_of_colours(values: list[float], from_zero: bool, expected: tuple[float, float]) -> None:
     low, high = colour_limits([np.array(values), np.array([math.nan])], from_zero, noise=1e-3)
     assert (low, high) == pytest.approx(expected, rel=2e-3)
+
+
+def test_a_field_that_is_all_in_the_wall_is_not_drawn_beside_it(tmp_path: Path) -> None:
+    """What the solve leaves beside a dielectric balloon is rounding, and would be drawn as lines in all directions."""
+    path = tmp_path / "balloon.vtkhdf"
+    changes = "path=[{steps = 1, field = 0.0}, {steps = 1}]", "faces.bottom.voltage=10 kV", "discretisation.order=2"
+    dielectric_balloon.run(*changes, archive=path)
+    archive = open_archive(path)
+    assert "outside" in archive.blocks
+    assert StepView.of(archive, 1, None, None, 2.4).ambient_field is None
+    assert StepView.of(archive, 0, None, None, 2.4).ambient_field == "E"
