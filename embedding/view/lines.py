@@ -38,11 +38,14 @@ class Raster:
         return np.asarray(np.linalg.norm(self.vectors, axis=2))
 
 
-def field_lines(raster: Raster, spacing: float) -> list[Floats]:
-    """Lines (points, 2) in cells, at least about ``spacing`` cells apart."""
+def field_lines(raster: Raster, spacing: float, no_starts: Flags | None = None) -> list[Floats]:
+    """Lines (points, 2) in cells, at least about ``spacing`` cells apart; none starts where ``no_starts`` (rows,
+    columns) says so."""
     strength = raster.strength
     directions = raster.vectors / np.where(strength > 0, strength, 1.0)[..., None]
     free = _eroded(strength > 0)
+    if no_starts is not None:
+        free &= ~no_starts
     empty, crowded = np.ones(free.shape, bool), np.zeros(free.shape, bool)
     lines: list[Floats] = []
     distance = -strength  # the first line starts where the field is strongest, others beside those that are there

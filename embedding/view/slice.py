@@ -110,9 +110,9 @@ def lines_in(section: Section, shown: tuple[int, int], spacing: float) -> list[F
     columns, rows = (np.ceil((high - low) / width).astype(int) + 1)[:2]
     grid = pyvista.ImageData(dimensions=(columns, rows, 1), spacing=(width,) * 3, origin=(low[0], low[1], 0.0))
     vectors = np.asarray(grid.sample(flat, tolerance=1e-3 * width)["vectors"], float)[:, shown]
-    if shown == (0, 2):
-        vectors[np.asarray(grid.points)[:, 0] < 0.25 * spacing] = 0.0  # no lines on the edge of the half plane
-    found = field_lines(Raster(vectors.reshape(rows, columns, 2)), 1 / RASTER)
+    edge = np.asarray(grid.points)[:, 0].reshape(rows, columns) < 0.25 * spacing
+    no_starts = edge if shown == (0, 2) else None  # no lines on the edge of the half plane
+    found = field_lines(Raster(vectors.reshape(rows, columns, 2)), 1 / RASTER, no_starts)
     return [low[:2] + width * line for line in found]
 
 

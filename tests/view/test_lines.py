@@ -41,6 +41,19 @@ def test_lines_of_a_charge_reach_from_its_hole_to_the_border() -> None:
     assert np.linalg.norm(ends[:, None] - ends[None], axis=2)[~np.eye(len(ends), dtype=bool)].min() > 5
 
 
+def test_where_none_may_start_lines_still_go() -> None:
+    """As beside an axis, to which lines come near that start elsewhere."""
+    x, y = plane(100)
+    vectors = np.stack([x + 70, y], axis=2)  # out of a point beside the plane
+    edge = np.zeros((100, 100), bool)
+    edge[:, :10] = True
+    lines = field_lines(Raster(vectors), 8.0, edge)
+    assert len(lines) > 3
+    for line in lines:
+        assert line[:, 0].max() >= 10
+        assert line[:, 0].min() < 1 or np.abs(line[[0, -1], 1] - 49.5).max() > 48, "it ends at the border only"
+
+
 def test_no_field_no_lines() -> None:
     assert field_lines(Raster(np.zeros((20, 20, 2))), 5.0) == []
 
