@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -47,7 +46,9 @@ def salvage(path: str | os.PathLike[str], target: str | os.PathLike[str]) -> int
             raise ArchiveError(f"{found.message}. The first step is not whole" if found.whole else found.message)
         with _written(copy) as new:
             _Copy(file, found.saveable, ended=False, salvaged=True).group(file, new)
-            _save_memory(file["embedding"], new["embedding"], found.saveable)
+            _copy_memory(file, new, found.saveable)
+            layout.create_finish(new["embedding"])  # how it ended is not known
+            new["embedding/committed"][...] = counted(found.saveable)
         write_views(copy, list(file["VTKHDF/Assembly/Scene"]))
     return found.saveable
 
@@ -57,6 +58,8 @@ def rewrite(source: Path, new_run: str | None = None) -> int:
     with reading(source) as old, _written(source) as new:
         steps = count_of(old["embedding/committed"])
         _Copy(old, steps, new_run, ended=new_run is None).group(old, new)
+        if steps and not _copy_memory(old, new, steps):
+            raise ArchiveError(f"{source}: the archive is damaged: the checkpoint of step {steps}")
         if new_run is not None:
             new["embedding/finish/length"][...] = counted(0)
     return steps
@@ -77,28 +80,32 @@ def _written(target: Path) -> Iterator[Any]:
         raise ArchiveError(f"{target}: cannot be written: {error}") from error
 
 
-def _save_memory(old: Any, new: Any, steps: int) -> None:
-    """What a run goes on from after the last of so many ``steps``, if it is whole; how it ended is not known."""
-    layout.create_finish(new)
-    new["committed"][...] = counted(steps)
-    extent, text, numbers = np.zeros(3, "i8"), np.zeros(0, "u1"), np.zeros(0)
-    with suppress(Exception):  # where bytes are wrong, HDF5 and h5py fail in many ways
-        slot = old["checkpoint"][SLOTS[steps % 2]]
-        if int(slot["extent"][0]) == steps and np.array_equal(slot_digest(slot), slot["digest"][...]):
-            extent = slot["extent"][...]
-            text, numbers = slot["text"][: extent[1]], slot["numbers"][: extent[2]]
-    layout.create_checkpoint(new, len(numbers))
-    slot = new["checkpoint"][SLOTS[steps % 2]]
-    for name, rows in (("text", text), ("numbers", numbers)):
-        layout.put(slot[name], 0, rows)
-    slot["extent"][...] = extent
-    slot["digest"][...] = slot_digest(slot)
+def _copy_memory(old: Any, new: Any, steps: int) -> bool:
+    """Copy what a run goes on from after the last of so many ``steps``, and after the one before; False, and the slot
+    is empty, if the former is not whole. The other slot may be half-written by a run that was killed."""
+    whole = {}
+    for slot, number in ((SLOTS[steps % 2], steps), (SLOTS[(steps + 1) % 2], steps - 1)):
+        with suppress(Exception):  # where bytes are wrong, HDF5 and h5py fail in many ways
+            group = old["embedding/checkpoint"][slot]
+            extent = group["extent"][...]
+            rows = group["text"][: extent[1]], group["numbers"][: extent[2]]
+            if int(extent[0]) == number and np.array_equal(slot_digest(group), group["digest"][...]):
+                whole[slot] = extent, *rows
+    layout.create_checkpoint(new["embedding"], max((len(numbers) for _, _, numbers in whole.values()), default=0))
+    for slot, group in new["embedding/checkpoint"].items():
+        if slot in whole:
+            group["extent"][...], text, numbers = whole[slot]
+            layout.put(group["text"], 0, text)
+            layout.put(group["numbers"], 0, numbers)
+        group["digest"][...] = slot_digest(group)
+    return SLOTS[steps % 2] in whole
 
 
 class _Copy:
-    """Copies what counts of an open archive; datasets that are linked from several groups stay one dataset.
+    """Copies what counts of an open archive but for its checkpoint; datasets that are linked from several groups stay
+    one dataset.
 
-    What is ``salvaged`` is without memory and end, and rows that cannot be read, none of which counts, are zeros.
+    What is ``salvaged`` is without its end, and rows that cannot be read, none of which counts, are zeros.
     """
 
     def __init__(
@@ -123,7 +130,7 @@ class _Copy:
         """Fill the group ``new`` with the attributes and members of ``old``."""
         self.attributes(old, new)
         for name in old:
-            if self.salvaged and old.name == "/embedding" and name in ("checkpoint", "finish"):
+            if old.name == "/embedding" and (name == "checkpoint" or (name == "finish" and self.salvaged)):
                 continue
             link = old.get(name, getlink=True)
             if isinstance(link, h5py.SoftLink):
@@ -165,8 +172,6 @@ class _Copy:
         """How many rows count of a dataset that grows in the group at ``place``."""
         if place[-1] == "PointData":
             return self.ends[place[-2]]
-        if place[-2] == "checkpoint":
-            return sys.maxsize
         return {"newton": self.newton, "finish": self.finish}.get(place[-1], self.committed)
 
     def table(self, old: Any, group: Any, name: str) -> Any:

@@ -42,9 +42,9 @@ CHANGES: dict[str, tuple[str, tuple[str, ...]]] = {
 
 
 def scene_called(name: str) -> Scene:
-    """One of ``CHANGES``, or a bare balloon."""
-    if name == "bare balloon":
-        return Scene.from_toml(SMALL)
+    """One of ``CHANGES``, or a balloon without a field, in two steps or in many."""
+    if name in ("bare balloon", "long balloon"):
+        return Scene.from_toml(SMALL if name == "bare balloon" else SMALL.replace("steps = 2", "steps = 10"))
     problem, changes = CHANGES[name]
     return load_scene(ROOT / "problems" / f"{problem}.toml", changes)
 
@@ -70,6 +70,25 @@ def check_resumed_after(scene: Scene, folder: Path, every: int = 1) -> None:
         assert again.result is solution.result and again.message == solution.message
         assert again.iterations == solution.iterations
         assert_same(open_archive(path), open_archive(whole))
+
+
+class Told(Listener):
+    """Adds a byte to a file for each step that the archive has been told of."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def accepted(self, state: State, record: StepRecord) -> None:
+        with self.path.open("ab") as file:
+            file.write(b".")
+
+
+def work(name: str, archive: Path, told: Path) -> None:
+    """Solve a scene, or go on with its archive if there is one."""
+    if archive.exists():
+        resume(archive, listeners=[Told(told)])
+    else:
+        solve(scene_called(name), archive=archive, listeners=[Told(told)])
 
 
 class Stop(Listener):
