@@ -22,6 +22,8 @@ Digest = npt.NDArray[np.uint8]
 TABLES = ("steps", "scalars", "vtk")
 GROWING = ("embedding/committed", "embedding/digest", *(f"embedding/{name}" for name in (
     *TABLES, "newton", "checkpoint", "finish")))  # fmt: skip
+LINKS = ("Steps", "FieldData")
+"""Groups of a block that hold nothing of their own: links to tables."""
 CHANGING = ("NSteps", "run", *AXES)
 """Attributes that change while a run is written, or that only name axes, which HDF5 keeps without checksums: they say
 no more than the number of steps, who writes, and what the axes are."""
@@ -93,6 +95,9 @@ def _static(group: Any, path: str) -> Iterator[Any]:
             yield link.path
             continue
         item = group[name]
+        if name in LINKS and place.startswith("VTKHDF/"):
+            yield " ".join(sorted(item))
+            continue
         if isinstance(item, h5py.Group):
             yield from _static(item, place)
             continue
