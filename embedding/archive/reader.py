@@ -135,6 +135,12 @@ class Archive:
         return tuple(self._end.get("cuts", ()))
 
     @property
+    def start(self) -> str:
+        """Where the run began: "rest", "neighbour" for the state of another run, or "rest: ..." and why it was not
+        that, known once the run has ended."""
+        return str(self._end.get("start", "rest"))
+
+    @property
     def critical_points(self) -> tuple[CriticalPoint, ...]:
         """Limit and bifurcation points that the path went through, known once the run has ended."""
         found = self._end.get("critical_points", ())

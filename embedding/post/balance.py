@@ -50,7 +50,7 @@ def energy_balance(archive: Source) -> Table:
     with the forces at the beginning of each step, off by terms of first order; ``work_cubic``; ``residual``,
     ``residual_explicit``, ``residual_cubic``, stored less work; ``path_error``, the sum over the steps of how far the
     trapezoidal rule is from the cubic curves, nan after a stage with too few steps to tell. A run that does not begin
-    at rest (prestretched, magnetised) is counted from its first step.
+    at rest (prestretched, magnetised, from the state of another run) is counted from its first step.
 
     Raises:
         PostError: no step, or work that the archive does not tell: of applied fields, of forces that follow an edge, of
@@ -62,7 +62,7 @@ def energy_balance(archive: Source) -> Table:
     _refuse(run, scene)
     contributions = _contributions(run, scene)
     stages = _stages(run, scene)
-    if _at_rest(scene):
+    if _at_rest(scene) and run.start != "neighbour":
         stages = [stages[0], *stages]
         first = 1
     else:

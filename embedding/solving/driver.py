@@ -66,7 +66,7 @@ class Run(Session):
         message = result.advice if result.ok else self.told(result)
         solution = Solution(
             self.scene, self.problem.plan, self.problem.scales, result, message, tuple(self.steps), error, self._cost(),
-            critical_points=tuple(self.critical), iterations=self.iterations,
+            critical_points=tuple(self.critical), iterations=self.iterations, start=self.start,
         )  # fmt: skip
         for listener in self.listeners:
             listener.finished(solution)

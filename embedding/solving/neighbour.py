@@ -56,9 +56,11 @@ def run_from(scene: Scene, neighbour: Neighbour, listeners: Sequence[Listener] =
         session = Continued(scene, listeners)
         reason = session.unfit(neighbour) or session.enter(neighbour)
         if not reason:
-            return replace(session.solve(), start=NEIGHBOUR)
-        solution = Run(scene, listeners).solve()
-    return replace(solution, iterations=solution.iterations + session.iterations, start=f"rest: {reason}")
+            session.start = NEIGHBOUR
+            return session.solve()
+        cold = Run(scene, listeners)
+        cold.start, cold.iterations = f"rest: {reason}", session.iterations
+        return cold.solve()
 
 
 class Continued(Run):

@@ -57,7 +57,7 @@ class Session:
         self.remeshings, self._meshed_at = 0, 0
         self.steps: list[StepRecord] = []
         self.critical: list[CriticalPoint] = []
-        self.iterations = 0
+        self.iterations, self.start = 0, "rest"
         self.detail, self.no_mesh = "", ""
         self.at = Target(0.0, 0.0, None, None if self.full_difference is None else 0.0)
 
@@ -72,6 +72,7 @@ class Session:
             "mesh": self._digest,
             "meshed_at": self._meshed_at,
             "iterations": self.iterations,
+            "start": self.start,
             "critical_points": [of_critical(point) for point in self.critical],
         }
 
@@ -89,7 +90,7 @@ class Session:
         self.remeshings, self._meshed_at = len(kept.origins), memory["meshed_at"]
         self.steps, self.at, self.stage = list(kept.steps), Target(**memory["at"]), memory["stage"]
         self.critical = [critical_of(point) for point in memory["critical_points"]]
-        self.iterations = memory["iterations"]
+        self.iterations, self.start = memory["iterations"], memory["start"]
         self.load(self.at)
         self.problem.system.recall(memory["system"])
         self.solver.recall(memory["solver"])

@@ -225,6 +225,7 @@ def solution(steps: Sequence[StepRecord], result: str = "CONVERGED") -> Any:
         error=Estimate(),
         cost=Cost(),
         critical_points=(),
+        start="rest",
         archive=None,
     )
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from embedding import ArchiveError, Scene, solve
+from embedding import ArchiveError, Scene, open_archive, solve
+from embedding.post import energy_balance
 from embedding.solving.neighbour import common_factors
 from tests.balloons import SMALL
 
@@ -46,6 +47,23 @@ def test_from_the_archive_of_another_scene(tmp_path: Path) -> None:
     assert found["stretch"][-1] == pytest.approx(known["stretch"][-1], rel=1e-10)
     assert found.iterations < known.iterations
     assert found.steps[-1].factor_mechanical == 1.0
+
+
+def test_the_archive_tells_where_the_run_began(tmp_path: Path) -> None:
+    """Work is counted from there: over a path of several steps it is what was stored."""
+    solve(SCENE, archive=tmp_path / "first.vtkhdf")
+    known = open_archive(tmp_path / "first.vtkhdf")
+    assert known.start == "rest"
+    beyond = SCENE.with_overrides(["loads.pressure_bottom=5000.0"])
+    solve(beyond, archive=tmp_path / "second.vtkhdf", start=tmp_path / "first.vtkhdf", throw=False)
+    archive = open_archive(tmp_path / "second.vtkhdf")
+    assert archive.start == "neighbour"
+    assert archive.result.name == "LIMIT_POINT"
+    balance = energy_balance(archive)
+    work, stored = balance["work"], balance["stored"]
+    assert len(work) == len(archive) > 3
+    assert work[0] == 0.0
+    assert work[-1] == pytest.approx(stored[-1] - stored[0], rel=2e-2)
 
 
 def test_there_must_be_a_state(tmp_path: Path) -> None:

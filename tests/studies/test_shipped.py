@@ -81,6 +81,7 @@ def test_some_cases(module: ModuleType, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(1800)
 @pytest.mark.parametrize("module", NAMES)
 def test_every_case(module: ModuleType, tmp_path: Path) -> None:
     result = solved(module, None, tmp_path / "study")
