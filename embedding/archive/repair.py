@@ -68,7 +68,7 @@ def rewrite(source: Path, new_run: str | None = None) -> int:
 @contextmanager
 def _written(target: Path) -> Iterator[Any]:
     """A new HDF5 file that becomes ``target`` when it is written, whole or not at all. Raises ArchiveError."""
-    temporary = target.with_name(f"{target.name}.partial")
+    temporary = target.with_name(f"{target.name}.{os.getpid()}.partial")  # another process may write the same target
     try:
         with h5py.File(temporary, "w", libver=LIBVER, locking=False) as new:
             yield new
@@ -78,6 +78,8 @@ def _written(target: Path) -> Iterator[Any]:
         to_disk(target.parent)
     except (OSError, RuntimeError) as error:
         raise ArchiveError(f"{target}: cannot be written: {error}") from error
+    finally:
+        temporary.unlink(missing_ok=True)
 
 
 def _copy_memory(old: Any, new: Any, steps: int) -> bool:

@@ -49,7 +49,7 @@ class SampledField:
 class ArchiveWriter:
     """Writes one run. Nothing is on disk before the first step is.
 
-    The first step goes to ``<name>.partial``, which takes the place of ``target`` only when that step is
+    The first step goes to ``<name>.<run>.partial``, which takes the place of ``target`` only when that step is
     committed: an archive that was there before stays whole until then, whatever happens to this run. A run
     that ends without an accepted step leaves its record (why it failed) at ``target`` if nothing is there,
     else at ``<stem>.failed<suffix>``. ``path`` says where the record is, or will be.
@@ -72,7 +72,7 @@ class ArchiveWriter:
         self._begin: dict[str, dict[str, int]] = {}
         self._remeshed, self._origins = False, list[Any]()
         self._run = uuid.uuid4().hex
-        self._partial = self.target.with_name(f"{self.target.name}.partial")
+        self._partial = self.target.with_name(f"{self.target.name}.{self._run[:8]}.partial")
 
     @classmethod
     def going_on(cls, target: Path, blocks: Mapping[str, LagrangeBlock]) -> ArchiveWriter:

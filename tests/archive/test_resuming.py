@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 import warnings
 from pathlib import Path
 
@@ -10,7 +12,7 @@ import h5py
 import pytest
 
 from embedding import ArchiveError, Result, Scene, SolveError, open_archive, resume, solve
-from embedding.archive import recorder, resuming
+from embedding.archive import recorder, resuming, verify
 from embedding.solving import session
 from tests.archive.resumed import CHANGES, KILL, Stop, check_resumed_after, scene_called, start
 from tests.archive.same import assert_same
@@ -148,3 +150,23 @@ def test_nobody_writes_into_a_run_that_went_on_elsewhere(tmp_path: Path) -> None
     with pytest.raises(ArchiveError, match="another run has replaced"):
         solve(scene_called("bare balloon"), archive=path, listeners=[TakeOver(2, 1, KILL)])
     assert path.read_bytes() == other.read_bytes()
+
+
+TAKEN_OVER = """
+import sys
+from pathlib import Path
+from embedding.archive.repair import rewrite
+for number in range(25):
+    rewrite(Path(sys.argv[1]), f"{number:032x}")
+"""
+
+
+def test_two_that_go_on_at_once_do_not_mix(tmp_path: Path) -> None:
+    """Each copies the archive into a file of its own: whichever comes last has a whole one."""
+    path = stopped(tmp_path)
+    both = [subprocess.Popen([sys.executable, "-c", TAKEN_OVER, path], stderr=subprocess.PIPE) for _ in range(2)]
+    ends = [one.communicate()[1].decode() for one in both]
+    assert [one.returncode for one in both] == [0, 0], ends
+    assert verify(path).sound
+    assert [one.name for one in tmp_path.glob("*.partial")] == []
+    assert resume(path, progress=False).result is Result.CONVERGED
