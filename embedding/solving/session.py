@@ -145,7 +145,7 @@ class Session:
     def remesh(self, settle: Callable[[Remeshed], bool]) -> bool:
         """Give the ambient a new mesh around the present shape at the present load, where ``settle`` finds equilibrium
         again; False, and nothing changed, if it does not or there is no such mesh."""
-        kept = self.problem, self.state, self.newton, self.solver
+        kept = self.problem, self.state, self.newton, self.solver, self._digest
         settled = False
         try:
             problem = Remeshed(self.problem)
@@ -158,7 +158,7 @@ class Session:
             self.no_mesh = f"there is no new mesh of the ambient around this shape ({error})"
         finally:
             if not settled:
-                self.problem, self.state, self.newton, self.solver = kept
+                self.problem, self.state, self.newton, self.solver, self._digest = kept
                 self._stay()
         if not settled:
             return False

@@ -13,13 +13,17 @@ import pytest
 
 from embedding import ArchiveError, Result, Scene, SolveError, open_archive, resume, solve
 from embedding.archive import recorder, resuming, verify
-from embedding.solving import session
+from embedding.solving import ramp, session
 from tests.archive.resumed import CHANGES, KILL, Stop, check_resumed_after, scene_called, start
 from tests.archive.same import assert_same
 from tests.balloons import SMALL
 
 SLOW = {"bent strip in a field", "coupled in space"}
-SOME = {"past limit points, bending": 7, "out of rest, past pull-in": 4, "bending in space": 6, "pull-in under load": 4}
+SOME = {
+    "past limit points, bending": 7, "out of rest, past pull-in": 4, "bending in space": 6, "pull-in under load": 4,
+    "bent strip in a field": 5,
+}  # fmt: skip
+"""After every how many steps; after every second one else."""
 
 
 @pytest.mark.parametrize(
@@ -34,6 +38,14 @@ def test_with_new_meshes_on_the_way(name: str, tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr(session, "WORN", 1.0)
     check_resumed_after(scene_called(name), tmp_path, 3)
     assert open_archive(tmp_path / "whole.vtkhdf").scalars["remeshings"][-1] >= 2
+
+
+def test_with_a_new_mesh_that_was_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    tried = []
+    monkeypatch.setattr(session, "WORN", 1.0)
+    monkeypatch.setattr(ramp, "_remeshed", lambda now: tried.append(now.remesh(lambda _: False)))
+    check_resumed_after(scene_called("membrane"), tmp_path, 2)
+    assert tried and not any(tried)
 
 
 @pytest.mark.parametrize("name", ["bare balloon", "membrane by arc length"])
