@@ -44,7 +44,7 @@ class Recorder(Listener):
     def __init__(self, path: str | os.PathLike[str], order: int | None = None) -> None:
         self._target = check_target(path)
         self._order = order
-        self._resumed = False
+        self._resumed: int | None = None
         self._writer: ArchiveWriter | None = None
         self._problem: Problem | None = None
         self._cuts: list[dict[str, Any]] = []
@@ -53,7 +53,7 @@ class Recorder(Listener):
     def going_on(cls, archive: Archive) -> Recorder:
         """The recorder of a run that goes on from the last step of ``archive``, in the same file."""
         recorder = cls(archive.path, archive.block(archive.blocks[0]).order)
-        recorder._resumed, recorder._cuts = True, list(archive.checkpoint()["cuts"])
+        recorder._resumed, recorder._cuts = len(archive), list(archive.checkpoint()["cuts"])
         return recorder
 
     @property
@@ -64,8 +64,8 @@ class Recorder(Listener):
     def started(self, problem: Problem) -> None:
         """Build the pictured blocks; nothing is written yet, but that a run which goes on takes over its archive."""
         self._problem = problem
-        if self._resumed:
-            self._writer = ArchiveWriter.going_on(self._target, self._blocks(problem))
+        if self._resumed is not None:
+            self._writer = ArchiveWriter.going_on(self._target, self._blocks(problem), self._resumed)
             return
         per_length = problem.reduction.name == "plane-strain"
         self._cuts = []

@@ -53,10 +53,15 @@ def salvage(path: str | os.PathLike[str], target: str | os.PathLike[str]) -> int
     return found.saveable
 
 
-def rewrite(source: Path, new_run: str | None = None) -> int:
-    """:func:`repair`; with ``new_run``, by whose name the run goes on, as an archive without an end."""
+def rewrite(source: Path, new_run: str | None = None, known: int | None = None) -> int:
+    """:func:`repair`; with ``new_run``, by whose name the run goes on, as an archive without an end.
+
+    Raises ArchiveError if there are other steps than the ``known`` ones that the run goes on from.
+    """
     with reading(source) as old, _written(source) as new:
         steps = count_of(old["embedding/committed"])
+        if known not in (None, steps):
+            raise ArchiveError(f"{source}: another run is at work there: step {steps} came meanwhile. Let it end first")
         _Copy(old, steps, new_run, ended=new_run is None).group(old, new)
         if steps and not _copy_memory(old, new, steps):
             raise ArchiveError(f"{source}: the archive is damaged: the checkpoint of step {steps}")

@@ -75,14 +75,14 @@ class ArchiveWriter:
         self._partial = self.target.with_name(f"{self.target.name}.{self._run[:8]}.partial")
 
     @classmethod
-    def going_on(cls, target: Path, blocks: Mapping[str, LagrangeBlock]) -> ArchiveWriter:
-        """The writer of a run that goes on from the last step of the archive ``target``, on the meshes of its
-        ``blocks``. Whatever else may still be writing there is refused from now on.
+    def going_on(cls, target: Path, blocks: Mapping[str, LagrangeBlock], steps: int) -> ArchiveWriter:
+        """The writer of a run that goes on from the last of the ``steps`` of the archive ``target``, on the meshes of
+        its ``blocks``. Whatever else may still be writing there is refused from now on.
 
-        Raises ArchiveError if the archive cannot be read or written, or its last meshes are others.
+        Raises ArchiveError if the archive cannot be read or written, has got more steps, or its last meshes are others.
         """
         writer = cls(target, blocks, {})
-        rewrite(target, writer._run)
+        rewrite(target, writer._run, steps)
         with reading(target) as file:
             writer.committed = layout.count_of(file["embedding/committed"])
             shared = file["embedding/vtk"]

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import warnings
 from pathlib import Path
+from typing import Any
 
 import h5py
 import pytest
@@ -14,6 +15,10 @@ import pytest
 from embedding import ArchiveError, Result, Scene, SolveError, open_archive, resume, solve
 from embedding.archive import recorder, resuming, verify
 from embedding.solving import ramp, session
+
+
+from embedding.archive.writer import ArchiveWriter
+from embedding.solving import session
 from tests.archive.resumed import CHANGES, KILL, Stop, check_resumed_after, scene_called, start
 from tests.archive.same import assert_same
 from tests.balloons import SMALL
@@ -182,3 +187,21 @@ def test_two_that_go_on_at_once_do_not_mix(tmp_path: Path) -> None:
     assert verify(path).sound
     assert [one.name for one in tmp_path.glob("*.partial")] == []
     assert resume(path, progress=False).result is Result.CONVERGED
+
+
+def test_a_run_that_is_still_at_work_is_not_taken_over(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It writes a step while another gets ready to go on: that one would write the same step again."""
+    path = stopped(tmp_path)
+    before, going_on = path.read_bytes(), ArchiveWriter.going_on
+    resume(path, progress=False)
+    after = path.read_bytes()
+    path.write_bytes(before)
+
+    def late(*arguments: Any) -> ArchiveWriter:
+        path.write_bytes(after)
+        return going_on(*arguments)
+
+    monkeypatch.setattr(ArchiveWriter, "going_on", late)
+    with pytest.raises(ArchiveError, match="another run is at work there"):
+        resume(path, progress=False)
+    assert path.read_bytes() == after
