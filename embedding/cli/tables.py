@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from embedding.post import Table
 
 
+KEYS = ("step", "point")
+"""Columns that name a row."""
+
+
 def table_summary(table: Table) -> dict[str, Any]:
     """A table as plain data: columns, units and notes."""
     columns = {name: column.tolist() for name, column in table.columns.items()}
@@ -24,19 +28,45 @@ def table_summary(table: Table) -> dict[str, Any]:
 def print_table(table: Table, leave_out: tuple[str, ...] = ()) -> None:
     """Print a table in SI units, without the columns to ``leave_out``.
 
-    Errors stand behind their values; what is not known is a dash.
+    Errors stand behind their values; what is not known is a dash. A table that is too wide comes in several parts, each
+    with the columns that name its rows, as no number is cut short.
     """
-    drawn = Drawn(box=None, padding=(0, 2, 0, 0), header_style="bold")
     errors = {name for name in table.columns if name.removesuffix("_error") in set(table.columns) - {name}}
     shown = [name for name in table.columns if name not in errors.union(leave_out)]
-    for name in shown:
-        text = table.columns[name].dtype.kind == "O"
-        drawn.add_column(table.heading(name).replace("[", r"\["), justify="left" if text else "right")
-    for row in range(len(table)):
-        drawn.add_row(*(_cell(table, name, row, with_error=f"{name}_error" in errors) for name in shown))
-    console().print(drawn)
+    cells = {
+        name: [_cell(table, name, row, with_error=f"{name}_error" in errors) for row in range(len(table))]
+        for name in shown
+    }
+    screen = console()
+    for place, part in enumerate(_parts(table, cells, screen.width)):
+        if place:
+            print()
+        drawn = Drawn(box=None, padding=(0, 2, 0, 0), header_style="bold")
+        for name in part:
+            text = table.columns[name].dtype.kind == "O"
+            heading = table.heading(name).replace("[", r"\[")
+            drawn.add_column(heading, justify="left" if text else "right", no_wrap=not text)
+        for row in range(len(table)):
+            drawn.add_row(*(cells[name][row] for name in part))
+        screen.print(drawn)
     for note in table.notes:
         print(f"  {note}")
+
+
+def _parts(table: Table, cells: dict[str, list[str]], width: int) -> list[list[str]]:
+    """The columns, in as many parts as it takes for each to be no wider than ``width``."""
+    needed = {
+        name: 2 + max([len(table.heading(name)), *(len(cell) for cell in column)]) for name, column in cells.items()
+    }
+    keys = [name for name in cells if name in KEYS]
+    parts, room = [list(keys)], width - sum(needed[name] for name in keys)
+    left = room
+    for name in (name for name in cells if name not in keys):
+        if needed[name] > left and len(parts[-1]) > len(keys):
+            parts, left = [*parts, list(keys)], room
+        parts[-1].append(name)
+        left -= needed[name]
+    return parts
 
 
 def save_csv(table: Table, path: Path | None) -> None:

@@ -14,7 +14,7 @@ from embedding.archive import Archive
 from embedding.post.measure import Measure
 from embedding.post.patches import Patch
 from embedding.post.probe import Source, opened
-from embedding.post.table import Table
+from embedding.post.table import PostError, Table
 
 Floats = npt.NDArray[np.float64]
 TOLERANCE = 1e-6
@@ -52,12 +52,14 @@ def compare(first: Source, second: Source, *, tolerance: float = TOLERANCE) -> C
     Steps are matched by load factors and stage, in the order of the paths; where the second has no step at a load of
     the first, that one is left out. Fields are compared at the nodes of the first, at the same places of the undeformed
     body; those of another mesh are interpolated by its own high-order cells. Their root mean square is that over the
-    deformed first and its steps. A scalar far below the largest of its unit is rounding, and does not count.
+    deformed first and its steps. A scalar or a field far below the largest of its unit is rounding, and does not count.
 
     Raises:
-        PostError: one of them has no step.
+        PostError: one of them has no step, or a tolerance that is negative or no number.
         ArchiveError: one of them cannot be read.
     """
+    if not tolerance >= 0.0:
+        raise PostError(f"a tolerance is 0 or more, not {tolerance:g}")
     one, other = opened(first), opened(second)
     pairs = _matched(one, other)
     rows = [*_scalar_rows(one, other, pairs), *_field_rows(one, other, pairs)]
@@ -121,8 +123,9 @@ def _scalar_rows(one: Archive, other: Archive, pairs: list[tuple[int, int]]) -> 
             continue
         a, b = (array[[pair[which] for pair in pairs]] for which, array in enumerate((values, other.scalars[name])))
         gaps = np.where(np.isnan(a) & np.isnan(b), 0.0, np.abs(a - b))
+        gaps[np.isnan(gaps)] = math.inf  # known to one of them only
         size = float(np.nanmax(np.abs([a, b]), initial=0.0))
-        where = int(np.nanargmax(gaps)) if not np.isnan(gaps).all() else 0
+        where = int(np.argmax(gaps))
         rms = float(np.sqrt(np.mean(gaps**2)))
         largest = float(gaps[where])
         relative = 0.0 if size < NOISE * largest_of[units[name]] else _relative(largest, size)
@@ -131,11 +134,11 @@ def _scalar_rows(one: Archive, other: Archive, pairs: list[tuple[int, int]]) -> 
 
 
 def _relative(gap: float, size: float) -> float:
-    return gap / size if size else (0.0 if gap == 0.0 else math.inf)
+    return gap / size if size and gap < math.inf else (0.0 if gap == 0.0 else math.inf)
 
 
 def _field_rows(one: Archive, other: Archive, pairs: list[tuple[int, int]]) -> list[tuple[Any, ...]]:
-    rows = []
+    rows: list[tuple[str, str, _Difference]] = []
     for block in one.blocks:
         if block not in other.blocks or not pairs:
             continue
@@ -145,8 +148,11 @@ def _field_rows(one: Archive, other: Archive, pairs: list[tuple[int, int]]) -> l
             a, b = (Patch.of(run, block, step) for run, step in ((one, number), (other, partner)))
             _add(found, a, b, number)
         units = one.block(block).units
-        rows += [("field", f"{block}.{name}", units[name], *found[name].row()) for name in names]
-    return rows
+        rows += [(f"{block}.{name}", units[name], found[name]) for name in names]
+    largest_of: dict[str, float] = {}
+    for _, unit, difference in rows:
+        largest_of[unit] = max(largest_of.get(unit, 0.0), difference.size)
+    return [("field", name, unit, *difference.row(NOISE * largest_of[unit])) for name, unit, difference in rows]
 
 
 class _Difference:
@@ -165,10 +171,11 @@ class _Difference:
         self.square += float(measure.by_cell(measure.at_points(gap) ** 2).sum())
         self.measure += float(measure.by_cell(1.0).sum())
 
-    def row(self) -> tuple[float, float, float, int]:
-        """Largest, root mean square, relative, step."""
+    def row(self, noise: float) -> tuple[float, float, float, int]:
+        """Largest, root mean square, relative, step; of a field that is all below ``noise`` none is relative."""
         rms = math.sqrt(self.square / self.measure) if self.measure else 0.0
-        return self.largest, rms, _relative(self.largest, self.size), self.step
+        relative = 0.0 if self.size < noise else _relative(self.largest, self.size)
+        return self.largest, rms, relative, self.step
 
 
 def _add(found: dict[str, _Difference], a: Patch, b: Patch, step: int) -> None:

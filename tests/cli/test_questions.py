@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 
 from embedding.archive import Recorder
 from tests.archive.made_up_run import LENGTH, VOLTAGE, Problem, tell
@@ -49,6 +50,15 @@ def test_material_points(folder: Path, call: Call) -> None:
     assert told["p_t"] == [pytest.approx(40, rel=1e-4)] and told["p_b"] == [pytest.approx(40, rel=1e-2)]
     told = json.loads(call(*words, "--side", "top").out)["columns"]
     assert told["where"] == ["outside"] and "phi" in told
+
+
+def test_no_number_is_cut_short(folder: Path, call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A table with more columns than there is room for comes in parts, each with the step and the point."""
+    monkeypatch.setattr("embedding.cli.tables.console", lambda: Console(width=60))
+    told = call("probe", "one.vtkhdf", "--shell", "--at", LENGTH, 0, 0).out
+    assert "\u2026" not in told
+    headings = [line for line in told.splitlines() if "step" in line]
+    assert len(headings) > 1 and all("point" in line for line in headings)
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from embedding import open_archive
 from embedding.archive import Recorder
-from embedding.post import compare
+from embedding.post import PostError, compare
 from tests.archive.made_up_run import Problem, tell
 from tests.post import runs
 
@@ -50,6 +51,28 @@ def test_what_is_different_is_named(tmp_path: Path) -> None:
     assert rows["charge"][1] == pytest.approx(1 - 1 / 1.1, rel=1e-3) and rows["charge"][2] == 2
     assert rows["outside.phi"][0] == pytest.approx(300.0, rel=1e-2)
     assert rows["voltage"][0] == pytest.approx(300.0)
+
+
+def test_rounding_is_no_difference(tmp_path: Path) -> None:
+    """There is no field in a conductor: what its inside has is rounding, and another one on another mesh."""
+    found = compare(runs.sphere(tmp_path, 0.6), runs.sphere(tmp_path, 0.5), tolerance=0.1)
+    relative = dict(zip(found.table["name"], found.table["relative"], strict=True))
+    assert relative["inside.E"] == relative["inside.energy_density"] == 0.0 < relative["outside.E"]
+
+
+def test_a_number_against_none_is_a_difference(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    one, other = (open_archive(made_up(tmp_path / f"{name}.vtkhdf", 0.8)) for name in "ab")
+    monkeypatch.setitem(other.scalars, "stretch", np.full(2, np.nan))
+    found = compare(one, other)
+    assert not found.same
+    assert found.table["relative"][list(found.table["name"]).index("stretch")] == np.inf
+
+
+@pytest.mark.parametrize("tolerance", [-1.0, float("nan")])
+def test_a_tolerance_is_a_size(tolerance: float, tmp_path: Path) -> None:
+    path = made_up(tmp_path / "a.vtkhdf", 0.8)
+    with pytest.raises(PostError, match="a tolerance is 0 or more"):
+        compare(path, path, tolerance=tolerance)
 
 
 def test_paths_without_common_loads(tmp_path: Path) -> None:
