@@ -14,11 +14,8 @@ import pytest
 
 from embedding import ArchiveError, Result, Scene, SolveError, open_archive, resume, solve
 from embedding.archive import recorder, resuming, verify
-from embedding.solving import ramp, session
-
-
 from embedding.archive.writer import ArchiveWriter
-from embedding.solving import session
+from embedding.solving import ramp, session
 from tests.archive.resumed import CHANGES, KILL, Stop, check_resumed_after, scene_called, start
 from tests.archive.same import assert_same
 from tests.balloons import SMALL
