@@ -8,12 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from embedding import Scene, open_archive, solve
+from embedding import Scene, load_scene, open_archive, solve
 from embedding.archive import Recorder
 from embedding.post import PostError, integrals
+from embedding.scene.scales import EPSILON_0
+from problems import charged_disc
 from tests.archive.made_up_run import LENGTH, Problem, tell
 from tests.post import runs
 
+PROBLEMS = Path(charged_disc.__file__).parent
 DISC = """
 name = "inflated disc"
 [shell]
@@ -84,6 +87,16 @@ def test_a_sphere_over_a_conducting_half_space(shell: float, ground: float, tmp_
     name = "capacitance" if shell else "capacitance_body0"
     assert table[name][0] == pytest.approx(exact.capacitance, rel=1e-4)
     assert abs(solution["charge_body0"][-1]) < 0.9 * exact.capacitance * 20e3, "the part within the radius"
+
+
+def test_errors_at_a_rim_are_no_smaller_than_the_truth(tmp_path: Path) -> None:
+    """Each side of a charged disc has half of Q = 8 eps R V, and nothing pulls it anywhere."""
+    scene = load_scene(PROBLEMS / "charged_disc.toml", ["path=[{steps=1}]"])
+    solve(scene, archive=tmp_path / "disc.vtkhdf", progress=False)
+    table = integrals(tmp_path / "disc.vtkhdf")
+    for name in ("charge_top", "charge_bottom"):
+        assert abs(table[name][0] - 4 * EPSILON_0 * 0.02 * 1e3) <= table[f"{name}_error"][0]
+    assert abs(table["force_z"][0]) <= table["force_z_error"][0]
 
 
 def test_poles_have_a_permeance(tmp_path: Path) -> None:
