@@ -96,7 +96,7 @@ def _static(group: Any, path: str) -> Iterator[Any]:
             continue
         item = group[name]
         if name in LINKS and place.startswith("VTKHDF/"):
-            yield " ".join(sorted(item))
+            yield from _names(item)
             continue
         if isinstance(item, h5py.Group):
             yield from _static(item, place)
@@ -105,6 +105,13 @@ def _static(group: Any, path: str) -> Iterator[Any]:
         yield f"{item.dtype} {item.shape[1:]}"
         if not _grows(place):
             yield item[...]
+
+
+def _names(group: Any) -> Iterator[str]:
+    for name in sorted(group):
+        yield name
+        if group.get(name, getclass=True) is h5py.Group:
+            yield from _names(group[name])
 
 
 def _grows(place: str) -> bool:
