@@ -90,7 +90,7 @@ def _partners(run: Archive, boundary: Patch, shell: Patch) -> npt.NDArray[np.int
     apart, number = map(np.asarray, cKDTree(shell.block.points).query(boundary.block.points[used]))
     partner = np.full(len(boundary.nodes), -1)
     same = apart <= SAME * length
-    if not same.any():
+    if len(np.unique(number[same])) < count:  # on a later mesh single ones may be: where the shell is held
         half = half_thickness(run, shell)
         normal = np.asarray(shell.block.field("normal", shell.step), float)
         places = np.concatenate([shell.nodes + shift * normal for shift in (0.0, half, -half)])

@@ -12,7 +12,7 @@ from embedding import open_archive
 from embedding.post import energy_balance, integrals, probe, probe_shell
 from embedding.scene.scales import EPSILON_0
 from embedding.solving import session
-from problems import grounded_balloon
+from problems import grounded_balloon, turned_in_a_field
 
 OUTER = 0.08  # radius of the grounded sphere
 
@@ -44,3 +44,18 @@ def test_a_spherical_capacitor_on_several_meshes(tmp_path: Path, monkeypatch: py
     assert (np.abs(table["charge_top"] - solution["charge"]) <= table["charge_top_error"]).all()
     balance = energy_balance(archive)
     assert np.abs(balance["residual_cubic"]).max() < 1e-2 * balance["stored"].max()
+
+
+@pytest.mark.slow
+def test_faces_of_a_strip_that_is_held(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its clamped end does not move, and is at one place on all meshes: the other nodes of a face are found too."""
+    tables = []
+    for worn, name in ((session.WORN, "once"), (1.0, "often")):
+        monkeypatch.setattr(session, "WORN", worn)
+        turned_in_a_field.run("path=[{control='load', steps=3}]", archive=tmp_path / f"{name}.vtkhdf")
+        tables.append(integrals(tmp_path / f"{name}.vtkhdf", steps=[1, 2]))
+    assert open_archive(tmp_path / "often.vtkhdf").scalars["remeshings"][1] > 0
+    once, often = tables
+    for name in ("flux_top", "flux_bottom"):
+        assert (np.abs(often[name]) > 0.0).all()
+        assert (np.abs(once[name] - often[name]) <= once[f"{name}_error"] + often[f"{name}_error"]).all()
