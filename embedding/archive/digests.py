@@ -89,10 +89,10 @@ def record_digest(file: Any) -> Digest:
 def _static(group: Any, path: str) -> Iterator[Any]:
     yield from _attributes(group, path)
     for name in sorted(group):
-        place, link = f"{path}/{name}".lstrip("/"), group.get(name, getlink=True)
+        place = f"{path}/{name}".lstrip("/")
         yield place
-        if isinstance(link, (h5py.SoftLink, h5py.ExternalLink)):
-            yield link.path
+        if path == "VTKHDF/Assembly/Scene":
+            yield group.get(name, getlink=True).path
             continue
         item = group[name]
         if name in LINKS and place.startswith("VTKHDF/"):
@@ -108,10 +108,11 @@ def _static(group: Any, path: str) -> Iterator[Any]:
 
 
 def _names(group: Any) -> Iterator[str]:
+    """Names of links, and those within the groups "PointDataOffsets" and the like, as VTKHDF has them."""
     for name in sorted(group):
         yield name
-        if group.get(name, getclass=True) is h5py.Group:
-            yield from _names(group[name])
+        if name.endswith("DataOffsets"):
+            yield from sorted(group[name])
 
 
 def _grows(place: str) -> bool:
