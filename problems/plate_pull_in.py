@@ -28,7 +28,7 @@ from problems.common import Array, Probe, Reading, print_files
 from problems.exact import mems
 
 SCENE = Path(__file__).with_suffix(".toml")
-RATIOS, FINE = (0.2, 0.1, 0.05), (0.1, 0.05, 0.025)
+RATIOS, FINE = (0.16, 0.08, 0.04), (0.1, 0.05, 0.025)
 """Gaps over the radius of the electrode; 0.05 is that of the scene file."""
 RADIUS = 0.05
 """Of the electrode, m."""
@@ -68,7 +68,7 @@ def at(ratio: float) -> tuple[str, ...]:
     return (
         f"ambient.bodies=[{{kind = 'cylinder', centre = {centre}, radius = {RADIUS}, length = 0.01, voltage = '0 V'}}]",
         f"faces.both.voltage={factor**1.5 * stated.faces.both.voltage!r}",
-        f"discretisation.shell_size={factor * stated.discretisation.shell_size!r}",
+        f"discretisation.shell_size={min(factor, 1.0) * stated.discretisation.shell_size!r}",  # resolves the edge
         f"path=[{{name = 'stretching', steps = 2, field = 0.0}}, {{name = 'charging', until = {end}}}]",
     )
 

@@ -6,6 +6,7 @@ import importlib.metadata
 import json
 import os
 import platform
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
@@ -82,7 +83,7 @@ class Recorder(Listener):
         """Commit the step."""
         writer, problem = self._writer, self._problem
         if writer is not None and problem is not None:
-            fields = [_sampled(writer.blocks[field.block], field, problem) for field in state.fields()]
+            fields = _sampled(writer.blocks, state.fields(), problem)
             writer.append(record, fields, {**state.memory(), "cuts": self._cuts})
 
     def remeshed(self, problem: Problem) -> None:
@@ -112,11 +113,18 @@ class Recorder(Listener):
         )
 
 
-def _sampled(block: LagrangeBlock, field: Field, problem: Problem) -> SampledField:
-    values = block.sample(field.values, average=field.name not in CONTINUOUS)
-    if values.ndim == 2 and values.shape[1] == problem.mesh.dim:
-        values = np.asarray(problem.embed_vector(values))
-    return SampledField(field.block, field.name, field.unit, values)
+def _sampled(blocks: Mapping[str, LagrangeBlock], fields: Sequence[Field], problem: Problem) -> list[SampledField]:
+    """All ``fields`` at the nodes of their blocks; a derived one from what was sampled before."""
+    done: dict[tuple[str, str], SampledField] = {}
+    for field in fields:
+        if field.derived is None:
+            values = blocks[field.block].sample(field.values, average=field.name not in CONTINUOUS)
+            if values.ndim == 2 and values.shape[1] == problem.mesh.dim:
+                values = np.asarray(problem.embed_vector(values))
+        else:
+            values = field.derived.of(done[field.block, field.derived.name].values)
+        done[field.block, field.name] = SampledField(field.block, field.name, field.unit, values)
+    return list(done.values())
 
 
 def documents(problem: Problem) -> dict[str, str]:

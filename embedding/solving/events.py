@@ -6,6 +6,7 @@ The solver stays free of files and screens: progress bars, archives and early st
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -46,17 +47,28 @@ class StepRecord:
 
 
 @dataclass(frozen=True)
+class Derived:
+    """How a field follows, point by point, from the one called ``name`` on its block: ``of`` values (n,) or (n, 3)
+    in SI units."""
+
+    name: str
+    of: Callable[[Any], Any]
+
+
+@dataclass(frozen=True)
 class Field:
     """A named field on one block of the mesh, live at the time of the call.
 
     ``values`` is an NGSolve coefficient function in SI units; vectors have the components of the mesh's own dimension,
-    or three Cartesian ones; 3 x 3 tensors have nine, by rows.
+    or three Cartesian ones; 3 x 3 tensors have nine, by rows. One that is ``derived`` can be had for less from the
+    values of another.
     """
 
     block: str
     name: str
     unit: str
     values: Any
+    derived: Derived | None = None
 
 
 class Listener:

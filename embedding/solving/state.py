@@ -15,7 +15,7 @@ from embedding.coupling.field import FieldEnergies
 from embedding.coupling.potential_solve import PotentialSolve
 from embedding.shell.kinematics import Kinematics
 from embedding.shell.loads import enclosed_volume
-from embedding.solving.events import Field
+from embedding.solving.events import Derived, Field
 from embedding.solving.memory import Memory
 from embedding.solving.outputs import output_fields
 from embedding.solving.problem import Problem
@@ -141,13 +141,18 @@ class State:
             potential = potential + self._values["jump"]
         electric = self.problem.scene.ambient is None or self.problem.scene.ambient.field == "electric"
         names, units = (("E", "D"), ("V", "V/m", "C/m^2")) if electric else (("H", "B"), ("A", "A/m", "T"))
-        flux_density = self._field.field.liquids.get(side, 1.0) * strength
+        liquid = self._field.field.liquids.get(side, 1.0)
+        flux_density = liquid * scales.flux_density * strength
+        energy_density = 0.5 * liquid * scales.stress * InnerProduct(strength, strength)
+        permittivity = liquid * scales.permittivity
+        of_flux = Derived(names[0], lambda found: permittivity * found)
+        of_energy = Derived(names[0], lambda found: 0.5 * permittivity * (found**2).sum(axis=1))
         return [
             Field(side, "u", "m", scales.length * (motion + w)),
             Field(side, "phi", units[0], scales.potential * potential),
             Field(side, names[0], units[1], scales.field * strength),
-            Field(side, names[1], units[2], scales.flux_density * flux_density),
-            Field(side, "energy_density", "J/m^3", scales.stress * 0.5 * InnerProduct(strength, flux_density)),
+            Field(side, names[1], units[2], flux_density, of_flux),
+            Field(side, "energy_density", "J/m^3", energy_density, of_energy),
         ]
 
     @property

@@ -18,7 +18,7 @@ def solved(ratio: float) -> tuple[Solution, Charged]:
 
 
 def test_the_limit_of_a_thin_gap() -> None:
-    """H. C. Nathanson et al. (1967). What gaps of a/5, a/10 and a/20 leave is of third order."""
+    """H. C. Nathanson et al. (1967). What gaps of 0.16, 0.08 and 0.04 of the radius leave is of third order."""
     limit = plate_pull_in.extrapolated(RATIOS, [solved(ratio)[1].pull_in for ratio in RATIOS])
     assert limit.load == pytest.approx(4.0 / 27.0, rel=5e-4)
     assert limit.centre == pytest.approx(1.0 / 3.0, rel=5e-4)

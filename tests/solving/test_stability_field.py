@@ -181,8 +181,7 @@ def curvature_of_energy(system: System, mode: Array, step: float) -> float:
         assert system.follow()
         assert system.potential is not None
         system.potential.solve()
-        elastic = system.domain.shell_integral(lagrangian.elastic_energy(values) / lagrangian.measure)
-        energies.append(elastic - system.potential.energy())
+        energies.append(lagrangian.elastic_energy(values) - system.potential.energy())
     system.restore(saved)
     return (energies[0] - 2 * energies[1] + energies[2]) / step**2
 
