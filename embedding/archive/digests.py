@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from embedding.archive.axes import AXES
-from embedding.archive.layout import DIGESTS, mesh_of, table
+from embedding.archive.layout import DIGESTS, part_of, table
 
 Digest = npt.NDArray[np.uint8]
 TABLES = ("steps", "scalars", "vtk")
@@ -74,7 +74,7 @@ def fields_digest(file: Any, step: int) -> Digest:
     parts: list[Any] = []
     for block in sorted(file["VTKHDF/Assembly/Scene"]):
         group = file["VTKHDF"][block]
-        points = int(group["NumberOfPoints"][mesh_of(group, step)["Part"]])
+        points = int(group["NumberOfPoints"][part_of(group, step)])
         begin = int(file["embedding/vtk"][table("Row", block)][step])
         for name, dataset in sorted(group["PointData"].items()):
             parts += [f"{block}/{name}", dataset[begin : begin + points]]

@@ -139,7 +139,7 @@ def first_row(shared: Any, group: Any, block: str, step: int) -> int:
     if step == 0 or not len(group["PointData"]):
         return 0
     chunk = int(next(iter(group["PointData"].values())).chunks[0])
-    part = mesh_of(group, step - 1)["Part"]
+    part = part_of(group, step - 1)
     rows = -(-int(group["NumberOfPoints"][part]) // chunk) * chunk
     return int(shared[table("Row", block)][step - 1]) + rows
 
@@ -250,6 +250,11 @@ def part_tables(file: Any, block: str, steps: int) -> None:
             put(own, 0, np.zeros((steps, *columns), "i8"))
             del linked[f"{place}Offsets"]
             linked[f"{place}Offsets"] = own
+
+
+def part_of(group: Any, step: int) -> int:
+    """Which of the meshes of a block's ``group`` that of a ``step`` is."""
+    return int(group["Steps/PartOffsets"][step].item())
 
 
 def mesh_of(group: Any, step: int) -> dict[str, int]:

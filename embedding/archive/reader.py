@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from embedding.archive.digests import damaged_rows, digest_of, record_digest, slot_digest
 from embedding.archive.file import reading
-from embedding.archive.layout import NEWTON_COLUMNS, PLACES, SLOTS, STEP_COLUMNS, count_of, mesh_of, noted, table
+from embedding.archive.layout import NEWTON_COLUMNS, PLACES, SLOTS, STEP_COLUMNS, count_of, mesh_of, noted, part_of, table
 from embedding.archive.memory import unpacked
 from embedding.archive.records import (
     UNFINISHED,
@@ -322,7 +322,7 @@ class ArchivedBlock:
         number = self.archive.index(self.step if step is None else step)
         with reading(self.archive.path) as file:
             group = file["VTKHDF"][self.name]
-            if mesh_of(group, number)["Part"] != self._part:
+            if part_of(group, number) != self._part:
                 raise ArchiveError(
                     f"{self.archive.path}: step {number} has another mesh: ask for block({self.name!r}, {number})"
                 )

@@ -15,7 +15,7 @@ from embedding.archive import layout
 from embedding.archive.axes import AXES, label_axes
 from embedding.archive.digests import slot_digest
 from embedding.archive.file import check_target, reading
-from embedding.archive.layout import LIBVER, SLOTS, count_of, counted, growable, mesh_of, table, to_disk
+from embedding.archive.layout import LIBVER, SLOTS, count_of, counted, growable, part_of, table, to_disk
 from embedding.archive.verification import reading_what_is_left, verified
 from embedding.archive.views import write_views
 from embedding.errors import ArchiveError
@@ -130,7 +130,7 @@ class _Copy:
         if not self.committed:
             return 0
         group, last = file["VTKHDF"][block], self.committed - 1
-        points = int(group["NumberOfPoints"][mesh_of(group, last)["Part"]])
+        points = int(group["NumberOfPoints"][part_of(group, last)])
         return int(file["embedding/vtk"][table("Row", block)][last]) + points
 
     def group(self, old: Any, new: Any) -> None:

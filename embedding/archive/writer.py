@@ -191,18 +191,19 @@ class ArchiveWriter:
         own, step = file["embedding"], self.committed
         shared = own["vtk"]
         first = {name: layout.first_row(shared, file["VTKHDF"][name], name, step) for name in self.blocks}
+        data, scalars = {name: file["VTKHDF"][name]["PointData"] for name in self.blocks}, own["scalars"]
         for field in fields:
-            rows = field.values.astype("f4")
-            layout.put(self._known(file, f"VTKHDF/{field.block}/PointData", field.name), first[field.block], rows)
+            layout.put(self._known(data[field.block], field.name), first[field.block], field.values.astype("f4"))
         for name, value in _scalars(record).items():
-            layout.put(self._known(file, "embedding/scalars", name), step, [[value]])
+            layout.put(self._known(scalars, name), step, [[value]])
         self._rows(own, record)
         tables = {"values": record.number, "row": step, "zero": 0, "zeros": 0, "one": 1}
         tables |= {layout.table("Row", block): row for block, row in first.items()}
         for block, begin in self._begin.items():
             tables |= {layout.table(place, block): value for place, value in begin.items()}
         for name, entry in tables.items():
-            layout.put(shared[name], step, np.reshape(entry, (1, *shared[name].shape[1:])))
+            table = shared[name]
+            layout.put(table, step, np.reshape(entry, (1, *table.shape[1:])))
         layout.put(own["steps/rows_digest"], step, list(rows_digests(own, step, step + 1)))
         layout.put(own["steps/fields_digest"], step, [fields_digest(file, step)])
         self._keep(own["checkpoint"][layout.SLOTS[(step + 1) % 2]], memory)
@@ -224,9 +225,10 @@ class ArchiveWriter:
     def _rows(self, own: Any, record: StepRecord) -> None:
         """The rows of a step in the tables of steps and of Newton iterations."""
         step = self.committed
-        begin = int(own["steps/newton_end"][step - 1]) if step else 0
+        steps, newton = own["steps"], own["newton"]
+        begin = int(steps["newton_end"][step - 1]) if step else 0
         for name in layout.NEWTON_COLUMNS:
-            layout.put(own["newton"][name], begin, [getattr(one, name) for one in record.iterations])
+            layout.put(newton[name], begin, [getattr(one, name) for one in record.iterations])
         row = {
             "number": record.number,
             "stage": _short(record.stage),
@@ -236,7 +238,7 @@ class ArchiveWriter:
             "newton_end": begin + len(record.iterations),
         }
         for name in layout.STEP_COLUMNS:
-            layout.put(own["steps"][name], step, [row[name]])
+            layout.put(steps[name], step, [row[name]])
 
     def _end(self, file: Any, data: npt.NDArray[np.uint8]) -> None:
         finish = file["embedding/finish"]
@@ -246,8 +248,8 @@ class ArchiveWriter:
         finish["length"][...] = layout.counted(len(data))
         _synchronise(file)
 
-    def _known(self, file: Any, group: str, name: str) -> Any:
-        dataset = file[group].get(name)
+    def _known(self, group: Any, name: str) -> Any:
+        dataset = group.get(name)
         if dataset is None:
             raise ArchiveError(f"{self.path}: a step brings {name!r}, which the first step did not have")
         return dataset
