@@ -13,7 +13,17 @@ import numpy.typing as npt
 
 from embedding.archive.digests import damaged_rows, digest_of, record_digest, slot_digest
 from embedding.archive.file import reading
-from embedding.archive.layout import NEWTON_COLUMNS, PLACES, SLOTS, STEP_COLUMNS, count_of, mesh_of, noted, part_of, table
+from embedding.archive.layout import (
+    NEWTON_COLUMNS,
+    PLACES,
+    SLOTS,
+    STEP_COLUMNS,
+    count_of,
+    mesh_of,
+    noted,
+    part_of,
+    table,
+)
 from embedding.archive.memory import unpacked
 from embedding.archive.records import (
     UNFINISHED,

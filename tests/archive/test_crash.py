@@ -102,7 +102,7 @@ class Taped:
         self.log.extend(self.tape.log)
 
 
-@pytest.mark.parametrize("every", [9, pytest.param(1, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("every", [31, pytest.param(1, marks=pytest.mark.slow)])
 def test_killed_after_a_write(every: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The writes of five commits are logged, and every beginning of that log (the slow one: each single one) is a file
     that must be readable."""

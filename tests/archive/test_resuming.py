@@ -20,12 +20,15 @@ from tests.archive.resumed import CHANGES, KILL, Stop, check_resumed_after, scen
 from tests.archive.same import assert_same
 from tests.balloons import SMALL
 
-SLOW = {"bent strip in a field", "coupled in space"}
+SLOW = {
+    "bent strip in a field", "coupled in space", "out of rest, past pull-in", "pull-in under load", "two stages",
+}  # fmt: skip
 SOME = {
     "past limit points, bending": 7, "out of rest, past pull-in": 4, "bending in space": 6, "pull-in under load": 4,
     "bent strip in a field": 5,
 }  # fmt: skip
 """After every how many steps; after every second one else."""
+BY_ARC_LENGTH = pytest.param("membrane by arc length", marks=pytest.mark.slow)
 
 
 @pytest.mark.parametrize(
@@ -35,13 +38,14 @@ def test_after_a_step(name: str, tmp_path: Path) -> None:
     check_resumed_after(scene_called(name), tmp_path, SOME.get(name, 2))
 
 
-@pytest.mark.parametrize("name", ["membrane by arc length", "membrane", "staggered"])
+@pytest.mark.parametrize("name", [BY_ARC_LENGTH, "membrane", "staggered"])
 def test_with_new_meshes_on_the_way(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(session, "WORN", 1.0)
     check_resumed_after(scene_called(name), tmp_path, 3)
     assert open_archive(tmp_path / "whole.vtkhdf").scalars["remeshings"][-1] >= 2
 
 
+@pytest.mark.slow
 def test_with_a_new_mesh_that_was_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tried = []
     monkeypatch.setattr(session, "WORN", 1.0)
@@ -50,7 +54,7 @@ def test_with_a_new_mesh_that_was_given_up(tmp_path: Path, monkeypatch: pytest.M
     assert tried and not any(tried)
 
 
-@pytest.mark.parametrize("name", ["bare balloon", "membrane by arc length"])
+@pytest.mark.parametrize("name", ["bare balloon", BY_ARC_LENGTH])
 def test_killed_and_killed_again(name: str, tmp_path: Path) -> None:
     """Processes that end without a word in their second and third step; the next ones go on."""
     whole, path = tmp_path / "whole.vtkhdf", tmp_path / "run.vtkhdf"
@@ -64,7 +68,7 @@ def test_killed_and_killed_again(name: str, tmp_path: Path) -> None:
     assert_same(open_archive(path), open_archive(whole))
 
 
-@pytest.mark.parametrize("name", ["membrane", "membrane by arc length", "past limit points, bending"])
+@pytest.mark.parametrize("name", ["membrane", BY_ARC_LENGTH, "past limit points, bending"])
 def test_interrupted(name: str, tmp_path: Path) -> None:
     whole, path = tmp_path / "whole.vtkhdf", tmp_path / "run.vtkhdf"
     scene = scene_called(name)
@@ -175,6 +179,7 @@ for number in range(25):
 """
 
 
+@pytest.mark.slow
 def test_two_that_go_on_at_once_do_not_mix(tmp_path: Path) -> None:
     """Each copies the archive into a file of its own: whichever comes last has a whole one."""
     path = stopped(tmp_path)

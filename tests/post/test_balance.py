@@ -83,6 +83,7 @@ def test_the_balance_closes_as_its_rule(name: str, tmp_path: Path) -> None:
     assert worst(fine, "residual_cubic") < 0.1 * worst(fine, "residual") + 2e-6
 
 
+@pytest.mark.slow
 def test_a_voltage_on_a_dielectric_balloon(tmp_path: Path) -> None:
     """Pressure first, then a voltage."""
     scene = load_scene(PROBLEMS / "dielectric_balloon.toml")

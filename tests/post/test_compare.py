@@ -27,7 +27,7 @@ def test_a_run_is_the_same_as_itself(tmp_path: Path) -> None:
     assert {"stretch", "shell.p_t", "outside.E"} <= set(found.table["name"])
 
 
-@pytest.mark.parametrize("order", [2, 3])
+@pytest.mark.parametrize("order", [2, pytest.param(3, marks=pytest.mark.slow)])
 def test_another_mesh_is_interpolated(order: int, tmp_path: Path) -> None:
     """The made-up fields are the same functions on every mesh; what is left is the interpolation's error."""
     gaps = []

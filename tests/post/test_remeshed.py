@@ -17,6 +17,7 @@ from problems import grounded_balloon, turned_in_a_field
 OUTER = 0.08  # radius of the grounded sphere
 
 
+@pytest.mark.slow
 def test_a_spherical_capacitor_on_several_meshes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """phi = V (1/r - 1/R) / (1/b - 1/R) between the outer face, at b, and the ground; Q = 4 pi eps V / (1/b - 1/R)."""
     monkeypatch.setattr(session, "WORN", 1.0)

@@ -91,6 +91,7 @@ def test_which_case_is_before_which() -> None:
     assert [case.before for case in cases_of(along(PRESSURE, parameters))] == [None, 0, None, None, None, 4]
 
 
+@pytest.mark.slow
 def test_a_strip_bends_on(tmp_path: Path) -> None:
     """Over the field, in bending by tens of degrees, to the same elastica as from rest."""
     stated = common.study("magnetic_strip", {"shell.remanence.0": [4], FIELD: [5, 6, 7]})

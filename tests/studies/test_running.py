@@ -105,6 +105,7 @@ def carried_out(done: int, seconds: float, folder: Path) -> None:
     assert len(read_index(folder / "index.jsonl")) == done + 3
 
 
+@pytest.mark.slow
 def test_each_failure_is_a_row_and_a_rerun_does_just_those(tmp_path: Path) -> None:
     carried_out(2, 8.0, tmp_path / "study")
 

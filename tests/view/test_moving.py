@@ -28,7 +28,7 @@ def run(folder: Path, reduction: str = "axisymmetric", steps: int = 3) -> Path:
 
 
 @draws
-@pytest.mark.parametrize("reduction", ["axisymmetric", "3d"])
+@pytest.mark.parametrize("reduction", ["axisymmetric", pytest.param("3d", marks=pytest.mark.slow)])
 def test_a_moving_picture(reduction: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(importlib.import_module("embedding.view.animation"), "PIXELS", (500, 500))
     from PIL import Image

@@ -37,7 +37,7 @@ BALLOON = Scene(
 )
 
 
-@pytest.mark.parametrize("scene", [PLATE, BALLOON], ids=["plate", "balloon"])
+@pytest.mark.parametrize("scene", [pytest.param(PLATE, marks=pytest.mark.slow), BALLOON], ids=["plate", "balloon"])
 def test_from_the_scene_to_the_picture(scene: Scene, tmp_path: Path) -> None:
     path = tmp_path / "run.vtkhdf"
     solution = solve(scene, archive=path)
