@@ -37,7 +37,7 @@ def worked(name: str, archive: Path, told: Path, seconds: float | None = None) -
 @pytest.mark.parametrize(
     ("name", "trials"),
     [
-        ("long balloon", 1),
+        ("long balloon", 2),
         pytest.param("long balloon", 60, marks=pytest.mark.slow),
         pytest.param("membrane by arc length", 50, marks=pytest.mark.slow),
         pytest.param("past limit points, bending", 50, marks=pytest.mark.slow),
@@ -68,4 +68,5 @@ def test_killed_at_random_moments(name: str, trials: int, tmp_path: Path) -> Non
             resume(path)
         assert_same(open_archive(path), undisturbed)
         path.unlink()
-    assert len(found) > (trials > 20), f"all were killed at the same steps {found}"
+    if trials > 20:  # of a few, all may have been killed before their first step
+        assert len(found) > 1, f"all were killed at the same steps {found}"

@@ -37,7 +37,7 @@ def test_small_strains(name: str, reduction: str) -> None:
     assert bent.moved(0.0, 0.0, 0.0)[2] == pytest.approx(exact, rel=5e-5)
 
 
-@every_law
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow if n == "ogden" else ()) for n in LAWS])
 def test_moderate_strains(name: str) -> None:
     """A clamped disc of T/R = 0.05 blown up by a quarter of its radius: a little below the membrane, which has no
     clamp, and the same on meshes that resolve the layer at the clamp. (From twice this load on, the curvature there

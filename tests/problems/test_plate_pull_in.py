@@ -17,6 +17,7 @@ def solved(ratio: float) -> tuple[Solution, Charged]:
     return plate_pull_in.run(*plate_pull_in.at(ratio))
 
 
+@pytest.mark.slow
 def test_the_limit_of_a_thin_gap() -> None:
     """H. C. Nathanson et al. (1967). What gaps of 0.16, 0.08 and 0.04 of the radius leave is of third order."""
     limit = plate_pull_in.extrapolated(RATIOS, [solved(ratio)[1].pull_in for ratio in RATIOS])

@@ -22,6 +22,7 @@ def test_circular_membrane_through_its_limit() -> None:
     assert path.values["apex"][-1] / circular_membrane.RADIUS > 1.3
 
 
+@pytest.mark.slow
 def test_the_default_mesh_is_good_to_a_tenth_of_a_per_mille() -> None:
     path = circular_membrane.run()
     assert circular_membrane.pressures(path) == pytest.approx(circular_membrane.reference(path), abs=1e-4)

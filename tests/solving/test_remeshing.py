@@ -28,6 +28,7 @@ class Meshes(Listener):
         self.sizes.append(problem.mesh.ne)
 
 
+@pytest.mark.slow
 def test_a_strip_rolled_up_to_a_full_circle(tmp_path: Path) -> None:
     """Its tip comes back to the clamp, up to the strip's own thinness; on one mesh it gets to three quarters."""
     solution, tip = turned_in_a_field.run(ROUND, archive=tmp_path / "rolled.vtkhdf")
