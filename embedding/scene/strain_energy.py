@@ -4,26 +4,19 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
-from pydantic import BeforeValidator, model_validator
+from pydantic import model_validator
 
 from embedding.scene.differentiation import derivative
 from embedding.scene.expression import Expression, parse_expression
 from embedding.scene.messages import refusal
 from embedding.scene.part import Part
-from embedding.scene.surface_fields import unit_of
+from embedding.scene.surface_fields import expression_in, unit_of
 from embedding.scene.units import LARGEST, unit_factor
 
 INVARIANTS = ("I1", "I2")
 AT_REST = (3.0, 3.0)
-
-
-def _energy(value: Any) -> Any:
-    try:
-        return parse_expression(value, INVARIANTS).text if isinstance(value, str) else value
-    except ValueError as error:
-        raise refusal(str(error)) from error
 
 
 class StrainEnergy(Part):
@@ -37,7 +30,7 @@ class StrainEnergy(Part):
     incompressible: ClassVar[bool] = True
 
     law: Literal["strain-energy"] = "strain-energy"
-    expression: Annotated[str, BeforeValidator(_energy)]
+    expression: Annotated[str, expression_in(INVARIANTS)]
     unit: Annotated[str, unit_of("Pa", "pressure", "kPa")] = "Pa"
 
     @cached_property

@@ -8,18 +8,23 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator
 
-from embedding.scene.expression import FLOAT_FUNCTIONS, Expression, Functions, parse_expression
+from embedding.scene.expression import FLOAT_FUNCTIONS, VARIABLES, Expression, Functions, parse_expression
 from embedding.scene.messages import TABLE, VALUE, refusal
 from embedding.scene.part import Part
 from embedding.scene.texts import Line
 from embedding.scene.units import unit_factor
 
 
-def _expression(value: Any) -> Any:
-    try:
-        return parse_expression(value).text if isinstance(value, str) else value
-    except ValueError as error:
-        raise refusal(str(error)) from error
+def expression_in(names: tuple[str, ...] = VARIABLES) -> BeforeValidator:
+    """A validator of expressions in the variables ``names``."""
+
+    def check(value: Any) -> Any:
+        try:
+            return parse_expression(value, names).text if isinstance(value, str) else value
+        except ValueError as error:
+            raise refusal(str(error)) from error
+
+    return BeforeValidator(check)
 
 
 def unit_of(si: str, noun: str, example: str) -> BeforeValidator:
@@ -37,7 +42,7 @@ def unit_of(si: str, noun: str, example: str) -> BeforeValidator:
 
 
 Point = tuple[float, float, float]
-ExpressionText = Annotated[str, BeforeValidator(_expression)]
+ExpressionText = Annotated[str, expression_in()]
 
 
 class SurfaceField(Part):

@@ -88,9 +88,9 @@ def measure_trade(
     planned = records[next(i for i, rung in enumerate(rungs) if rung.name == PLANNED)]
     name = _quantity(planned, quantity)
     rows = [_row(rung, record, name) for rung, record in zip(rungs, records, strict=True)]
-    exact = next(row.value for row in rows if row.rung == FINEST) if reference is None else reference
+    (finest,) = (row for row in rows if row.rung == FINEST)
+    exact = finest.value if reference is None else reference
     if not math.isfinite(exact) or exact == 0.0:
-        (finest,) = (row for row in rows if row.rung == FINEST)
         raise StudyError(f"the finest rung has no {name} to compare with ({finest.status}: {finest.reason})")
     compared = [replace(row, error=abs(row.value / exact - 1.0)) for row in rows]
     if reference is None:  # it cannot tell its own error
