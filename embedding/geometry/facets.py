@@ -162,15 +162,19 @@ class Facets:
         jumps.
         """
         facet, angle = self._jumps(normal)
-        candidates = self.on_edges[facet]
         mask = np.zeros(self.count, bool)
-        mask[facet[candidates & (angle > max(least, 2 * angle[~candidates].max(initial=0.0)))]] = True
+        mask[facet[self._kinked(facet, angle, least)]] = True
         return mask
 
     def sharpest(self, normal: Any) -> float:
         """The largest angle of the kinks, in rad; 0 without any."""
         facet, angle = self._jumps(normal)
-        return float(angle[self.kinks(normal)[facet]].max(initial=0.0))
+        return float(angle[self._kinked(facet, angle, KINK)].max(initial=0.0))
+
+    def _kinked(self, facet: Integers, angle: Floats, least: float) -> Mask:
+        """Which of the jumps by an ``angle`` at each ``facet`` are kinks."""
+        candidates = self.on_edges[facet]
+        return np.asarray(candidates & (angle > max(least, 2 * angle[~candidates].max(initial=0.0))))
 
     def _jumps(self, normal: Any) -> tuple[Integers, Floats]:
         """Facets between two elements, and the angle by which the unit ``normal`` jumps there."""
