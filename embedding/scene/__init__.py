@@ -1,6 +1,7 @@
 """What the user states: shell, supports, loads, ambient, path, options; in SI units, checked at the door."""
 
 from embedding.errors import Problem, SceneError
+from embedding.scene.accuracy import Accuracy
 from embedding.scene.ambient import Ambient, Electrode, Faces, LineCurrent
 from embedding.scene.bodies import Body, BoxBody, CylinderBody, HalfSpace, SphereBody
 from embedding.scene.expression import Expression, parse_expression
@@ -41,6 +42,7 @@ from embedding.scene.vector_fields import AppliedField, ForceField, Polarisation
 __all__ = [
     "EPSILON_0",
     "MU_0",
+    "Accuracy",
     "Ambient",
     "Annulus",
     "AppliedField",

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Self
 from pydantic import BeforeValidator, ValidationInfo, model_validator
 
 from embedding.errors import Problem, SceneError
+from embedding.scene.accuracy import Accuracy, from_number
 from embedding.scene.ambient import Ambient, Faces
 from embedding.scene.checks import cross_problems
 from embedding.scene.loads import Loads
@@ -45,6 +46,7 @@ class Scene(Part):
     discretisation: Discretisation = Discretisation()
     solver: Solver = Solver()
     output: Output = Output()
+    accuracy: Annotated[Accuracy | None, BeforeValidator(from_number)] = None
 
     @classmethod
     def from_toml(cls, text: str, source: str | None = None) -> Scene:
