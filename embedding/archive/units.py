@@ -13,8 +13,8 @@ UNITS = {
 EXTENSIVE = {
     "field_energy": "J", "elastic_energy": "J", "load_work": "J", "support_work": "J", "held_force": "N",
 }  # fmt: skip
-OF_PARTS = {"voltage": "V", "charge": "C", "potential": "A", "flux": "Wb", "force": "N", "torque": "N m"}
-"""Of the shell, of its film, of a body, along an axis: ``charge_body0``, ``torque_z``."""
+OF_PARTS = {"voltage": "V", "charge": "C", "potential": "A", "flux": "Wb", "force": "N", "torque": "N m", "u": "m"}
+"""Of the shell, of its film, of a body, along an axis, of a point: ``charge_body0``, ``torque_z``, ``u_tip_x``."""
 PER_LENGTH = {"J": "J/m", "N": "N/m", "C": "C/m", "Wb": "Wb/m", "N m": "N"}
 
 

@@ -29,8 +29,8 @@ class Model(Part):
     coupling: Literal["auto", "joint", "staggered", "once", "unperturbed"] = "auto"
 
 
-class Fixed(dict[str, float]):
-    """A table that cannot be changed, and so can stand in a scene."""
+class Fixed(dict[str, Any]):
+    """A table of numbers or vectors that cannot be changed, and so can stand in a scene."""
 
     def __hash__(self) -> int:  # type: ignore[override]
         return hash(frozenset(self.items()))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator
@@ -10,9 +10,10 @@ from pydantic import AfterValidator, BeforeValidator
 from embedding.errors import Problem
 from embedding.scene.materials import StVenantKirchhoff
 from embedding.scene.messages import nearest, refusal
+from embedding.scene.options import Fixed
 from embedding.scene.part import Part
 from embedding.scene.quantities import QUANTITIES
-from embedding.scene.units import Components, Plain
+from embedding.scene.units import Components, LengthVector, Plain
 
 if TYPE_CHECKING:
     from embedding.scene.scene import Scene
@@ -65,13 +66,23 @@ def _not_zero(direction: tuple[float, float, float]) -> tuple[float, float, floa
     return direction
 
 
+def _named(value: Any) -> Any:
+    if not isinstance(value, Mapping) or not all(isinstance(name, str) and name.isidentifier() for name in value):
+        raise refusal('must be a table of names and points of the mid-surface, such as { tip = ["0.1 m", 0, 0] }')
+    return value
+
+
 class Output(Part):
     """``fields`` by name, and the surface coordinates that components are given in.
+
+    The displacement of each of the ``points`` of the reference mid-surface, in m, is recorded at every step: of one
+    called tip as the scalars u_tip_x, u_tip_y, u_tip_z.
 
     ``coordinates``: "frame" takes A_1 along ``direction`` projected to the surface (in a reduction: along the curve);
     "polar", "cylindrical" and "spherical" are those about the z axis.
     """
 
+    points: Annotated[dict[str, LengthVector], BeforeValidator(_named), AfterValidator(Fixed)] = Fixed()
     fields: Annotated[tuple[Annotated[str, BeforeValidator(_field)], ...], AfterValidator(_different)] = ()
     coordinates: Literal["frame", "polar", "cylindrical", "spherical"] = "frame"
     direction: Annotated[tuple[Plain, Plain, Plain], Components, AfterValidator(_not_zero)] = (1.0, 0.0, 0.0)

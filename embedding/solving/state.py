@@ -18,6 +18,7 @@ from embedding.shell.loads import enclosed_volume
 from embedding.solving.events import Derived, Field
 from embedding.solving.memory import Memory
 from embedding.solving.outputs import output_fields
+from embedding.solving.places import Tracked
 from embedding.solving.problem import Problem
 
 
@@ -32,6 +33,7 @@ class State:
         self._system, self._scales = problem.system, problem.scales
         self._domain, self._unknowns = problem.domain, problem.system.unknowns
         self._values = {name: self._unknowns.field(name) for name in self._unknowns.names}
+        self._tracked = Tracked(problem)
         self._lengths = 2 if problem.reduction.name == "plane-strain" else 3
 
     # -- kinematics that can be evaluated anywhere on the shell, the axis included
@@ -190,7 +192,7 @@ class State:
             named["support_work"] = energy * support_work
         if self._unknowns.rigid:
             named["held_force"] = self._scales.stress * self._scales.length ** (self._lengths - 1) * self.held_force
-        return named | self._field_scalars(energy)
+        return named | self._field_scalars(energy) | self._tracked.scalars()
 
     @property
     def held_force(self) -> float:
