@@ -12,7 +12,7 @@ from problems import cantilever_moment, charged_balloon
 POINTS = 'output.points={east=["20 mm", 0, 0], slanted=["12 mm", "16 mm", 0], top=[0, 0, "20 mm"]}'
 
 
-@pytest.mark.parametrize(("reduction", "mesh"), [("axisymmetric", 1e-3), ("3d", 3e-2)])
+@pytest.mark.parametrize(("reduction", "mesh"), [("axisymmetric", 1e-2), ("3d", 3e-2)])
 def test_a_balloon_moves_outwards(reduction: str, mesh: float) -> None:
     """Every point of a sphere moves along its radius, the same way in every reduction, to the mesh's error."""
     changes = (f"model.reduction={reduction}", "discretisation.order=2", "path=[{steps = 3}]", POINTS)
