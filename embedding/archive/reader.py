@@ -38,7 +38,7 @@ from embedding.archive.verification import verify
 from embedding.errors import ArchiveError
 from embedding.scene import Scales, Scene
 from embedding.solving.events import Iteration, StepRecord
-from embedding.solving.solution import CriticalPoint
+from embedding.solving.solution import Assumption, CriticalPoint
 
 __all__ = [
     "Archive",
@@ -132,6 +132,12 @@ class Archive:
     def error(self) -> ArchivedError | None:
         """The estimated error, if the run has ended with one."""
         return ArchivedError(**self._end["error"]) if self._end.get("error") else None
+
+    @property
+    def assumptions(self) -> tuple[Assumption, ...]:
+        """What the plan left out, checked on the last step, known once the run has ended."""
+        found = self._end.get("assumptions", ())
+        return tuple(Assumption(**{**one, "rung": tuple(one["rung"])}) for one in found)
 
     @property
     def cost(self) -> ArchivedCost | None:

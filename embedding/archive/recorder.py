@@ -106,6 +106,7 @@ class Recorder(Listener):
                 "result": {"name": result.name, "advice": result.advice, "message": solution.message},
                 "error": None if solution.error is None else asdict(solution.error),
                 "cost": asdict(solution.cost),
+                "assumptions": [asdict(assumption) for assumption in solution.assumptions],
                 "cuts": self._cuts,
                 "start": solution.start,
                 "critical_points": [{**vars(point), "mode": point.mode.tolist()} for point in solution.critical_points],

@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
-from embedding.cli.output import console, cost_line, critical_rows, error_line, number, print_rows, without_noise, words
+from embedding.cli.output import (
+    assumption_rows,
+    console,
+    cost_line,
+    critical_rows,
+    error_line,
+    number,
+    print_rows,
+    without_noise,
+    words,
+)
 
 if TYPE_CHECKING:
     from embedding.archive import Archive, Verification
@@ -30,6 +40,7 @@ def archive_summary(archive: Archive) -> dict[str, Any]:
         "result": asdict(archive.result),
         "critical_points": [{**vars(point), "mode": None} for point in archive.critical_points],
         "estimated_error": None if archive.error is None else asdict(archive.error),
+        "assumptions": [asdict(assumption) for assumption in archive.assumptions],
         "cost": None if archive.cost is None else asdict(archive.cost),
         "steps": [asdict(step) for step in archive.steps],
         "cuts": archive.cuts,
@@ -53,6 +64,7 @@ def print_archive(archive: Archive) -> None:
     rows = [("result", f"{words(result.name)}: {result.message}")]
     if archive.error is not None:
         rows.append(("estimated error", error_line(archive.error)))
+    rows += assumption_rows(archive.assumptions)
     if archive.cost is not None:
         rows.append(("cost", cost_line(archive.cost)))
     rows += critical_rows(archive.critical_points)

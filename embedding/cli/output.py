@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from embedding.archive.records import ArchivedCost, ArchivedError
-    from embedding.solving.solution import Cost, CriticalPoint, ErrorEstimate, Solution
+    from embedding.solving.solution import Assumption, Cost, CriticalPoint, ErrorEstimate, Solution
 
 NOISE = 1e-12
 
@@ -100,6 +100,17 @@ def critical_rows(points: Sequence[CriticalPoint]) -> list[tuple[str, str]]:
     return rows
 
 
+def assumption_rows(assumptions: Sequence[Assumption]) -> list[tuple[str, str]]:
+    """What was left out and whether that was allowed, a row each."""
+    rows = []
+    for one in assumptions:
+        verdict, sign = ("OK", "<=") if one.held else ("VIOLATED", ">")
+        lift = "" if one.held else f"; try --set {' --set '.join(one.rung)}" if one.rung else "; no model here has it"
+        told = f"{verdict}, {one.number:.1e} {sign} {one.allowed:g}: {one.sentence}{lift}"
+        rows.append((f"{one.topic}: {one.choice}", told))
+    return rows
+
+
 def solution_summary(solution: Solution) -> dict[str, Any]:
     """A solution as plain data: result, final scalars, error estimate and cost."""
     last = solution.steps[-1] if solution.steps else None
@@ -111,6 +122,7 @@ def solution_summary(solution: Solution) -> dict[str, Any]:
         "scalars": last.scalars if last else {},
         "critical_points": [{**vars(point), "mode": None} for point in solution.critical_points],
         "estimated_error": None if solution.error is None else asdict(solution.error),
+        "assumptions": [asdict(assumption) for assumption in solution.assumptions],
         "cost": asdict(solution.cost),
         "archive": solution.archive,
     }
@@ -128,6 +140,7 @@ def print_solution(solution: Solution, picture: Path | None) -> None:
     rows += critical_rows(solution.critical_points)
     if solution.error is not None:
         rows.append(("estimated error", error_line(solution.error)))
+    rows += assumption_rows(solution.assumptions)
     rows.append(("cost", cost_line(solution.cost)))
     if solution.archive is not None:
         rows.append(("archive", str(solution.archive)))

@@ -1,11 +1,13 @@
 """Solving a scene: paths by arc length, load, volume or displacement, critical points, typed results, listeners."""
 
+from embedding.solving.assumptions import raised
 from embedding.solving.driver import run
 from embedding.solving.events import Field, Iteration, Listener, StepRecord
 from embedding.solving.result import Result
-from embedding.solving.solution import Cost, CriticalPoint, ErrorEstimate, Solution
+from embedding.solving.solution import Assumption, Cost, CriticalPoint, ErrorEstimate, Solution
 
 __all__ = [
+    "Assumption",
     "Cost",
     "CriticalPoint",
     "ErrorEstimate",
@@ -15,5 +17,6 @@ __all__ = [
     "Result",
     "Solution",
     "StepRecord",
+    "raised",
     "run",
 ]

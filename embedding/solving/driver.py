@@ -12,6 +12,7 @@ from ngsolve import SetNumThreads, TaskManager
 
 from embedding.scene import Scene, Stage
 from embedding.solving.arc import ArcStage
+from embedding.solving.assumptions import check_assumptions
 from embedding.solving.continuation import Condition, at_parameter
 from embedding.solving.estimate import estimate_error
 from embedding.solving.events import Listener
@@ -64,9 +65,12 @@ class Run(Session):
         except KeyboardInterrupt:
             result, error = Result.INTERRUPTED, None
         message = result.advice if result.ok else self.told(result)
+        answers = self.scene.accuracy.of if self.scene.accuracy is not None else ()
+        answers = answers or ((error.quantity,) if error is not None else ())
+        assumptions = check_assumptions(self.problem, self.steps, result, answers)
         solution = Solution(
             self.scene, self.problem.plan, self.problem.scales, result, message, tuple(self.steps), error, self._cost(),
-            critical_points=tuple(self.critical), iterations=self.iterations, start=self.start,
+            critical_points=tuple(self.critical), iterations=self.iterations, start=self.start, assumptions=assumptions,
         )  # fmt: skip
         for listener in self.listeners:
             listener.finished(solution)

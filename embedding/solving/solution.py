@@ -29,6 +29,24 @@ class ErrorEstimate:
 
 
 @dataclass(frozen=True)
+class Assumption:
+    """One thing the plan left out, and whether that was allowed: at the solution, it is worth ``number``.
+
+    ``topic`` and ``choice`` are those of the plan's decision, ``allowed`` is the largest number at which the
+    assumption counts as ``held``. ``rung`` has the overrides of the scene that bring the term back; none where the
+    scene itself pins the choice, or where no model of this package has it.
+    """
+
+    topic: str
+    choice: str
+    number: float
+    allowed: float
+    held: bool
+    sentence: str
+    rung: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class Cost:
     """What the solve cost: seconds, peak memory of the process in bytes, unknowns by name, seconds by part."""
 
@@ -64,7 +82,7 @@ class Solution:
 
     ``iterations`` counts every Newton step, those of failed attempts and of looking for critical points included.
     ``start`` is "rest", "neighbour" where the state of another run was started from, or "rest: ..." with the reason why
-    it could not be.
+    it could not be. ``assumptions`` are what the plan left out, checked on the last step.
     """
 
     scene: Scene
@@ -79,6 +97,7 @@ class Solution:
     critical_points: tuple[CriticalPoint, ...] = ()
     iterations: int = 0
     start: str = "rest"
+    assumptions: tuple[Assumption, ...] = ()
 
     def __getitem__(self, name: str) -> npt.NDArray[np.float64]:
         """History of the scalar ``name`` over the accepted steps.

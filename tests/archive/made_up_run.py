@@ -222,6 +222,7 @@ def solution(steps: Sequence[StepRecord], result: str = "CONVERGED") -> Any:
         result=SimpleNamespace(name=result, advice="nothing to do"),
         message="the whole path is solved",
         steps=tuple(steps),
+        assumptions=(),
         error=Estimate(),
         cost=Cost(),
         critical_points=(),

@@ -57,6 +57,7 @@ def solution(scene: Any, archive: Path | None, steps: Sequence[StepRecord], resu
         message="the whole path is solved",
         steps=tuple(steps),
         critical_points=(CRITICAL,),
+        assumptions=(),
         error=Estimate(value=2e-4, quantity="stretch", method="one order lower", parts={"discretisation": 2e-4}),
         cost=Cost(
             wall_seconds=75.0,

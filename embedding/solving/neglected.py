@@ -1,0 +1,184 @@
+"""How much what a plan leaves out is worth, measured on the present state: dimensionless numbers, relative to the load.
+
+What a neglected term does to a load becomes an error of the answer through the response of the answer to the load.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from ngsolve import CF, ET, InnerProduct, IntegrationRule, Inv, OuterProduct, Trace
+
+from embedding.plan.coefficients import BENT, CLOSED_FACES, MEMBRANE, ROBIN
+from embedding.scene.checks_field import axes_of, centre_of_space
+from embedding.shell.derivatives import Derivatives
+from embedding.shell.kinematics import Kinematics
+from embedding.solving.events import StepRecord
+from embedding.solving.problem import Problem
+from embedding.solving.state import State
+
+STRETCHES = {"stretch": 1, "stretch_max": 1, "stretch_min": 1, "axial_stretch": 1, "volume_ratio": 3}
+"""Scalars that start at 1 and hardly move under a small load, and what power of a length they are."""
+NOTHING = 1e-12
+"""Energies below this part of the elastic one are rounding."""
+
+
+class Neglected:
+    """Terms that the plan of ``problem`` leaves out, at its present state, the last of ``steps``.
+
+    Numbers that end up in an answer are relative errors of the scalars ``of``, the worst of them.
+    """
+
+    def __init__(self, problem: Problem, steps: Sequence[StepRecord], of: Sequence[str]) -> None:
+        self.problem, self.steps, self.of = problem, steps, of
+        self.state, self.scalars = State(problem), steps[-1].scalars
+        self._thickness = problem.scene.shell.thickest / problem.scales.length
+
+    @cached_property
+    def response(self) -> float:
+        """Largest |d ln(answer) / d ln(load)| of the answers: that of the last steps for stretches, else 1."""
+        controlled = self.problem.system.physics.volume_controlled
+        stretched = 0.0 if controlled else stretch_response(self.steps)
+        return max((STRETCHES[name] * stretched if name in STRETCHES else 1.0 for name in self.of), default=1.0)
+
+    @cached_property
+    def slenderness(self) -> float:
+        """t / r of the deformed shell, as if it kept its shape; 0 for flat shapes."""
+        domain = self.problem.domain
+        return 0.0 if domain.is_flat else self._thickness / domain.curvature_radius / self._growth
+
+    @property
+    def _growth(self) -> float:
+        """What the deformation divides t / r by."""
+        plane = self.problem.reduction.name == "plane-strain"
+        stretch = self.scalars["stretch"]
+        across = self.scalars.get("axial_stretch", self.problem.system.physics.axial_stretch) if plane else stretch
+        return stretch * stretch * across
+
+    @property
+    def thickness(self) -> float:
+        """What shell theory itself leaves out of the load of a curved wall."""
+        bending = self.problem.plan.bending
+        return self.response * (BENT if bending else MEMBRANE) * self.slenderness**2
+
+    @property
+    def closed_faces(self) -> float:
+        """What the places of the faces are worth: their distance over the radius of the shell (the size of a flat one)
+        and over the gaps to the bodies beside it, across which the field is as strong as they are narrow."""
+        flat = self._thickness if self.problem.domain.is_flat else self.slenderness
+        across = self._thickness / self._gap if self._gap > 0.0 else math.inf
+        return self.response * CLOSED_FACES * max(flat, across) * self.field_share
+
+    @property
+    def coupling_gap(self) -> float:
+        """What the change of the field's forces with the shape is worth."""
+        return self.response * self.field_share * self.scalars["coupling_gap"]
+
+    @property
+    def far_field(self) -> float:
+        """What Robin's condition misses of the field's load, by how far the deformed shell reaches."""
+        sizes = self.problem.plan.sizes
+        return self.response * self.field_share * ROBIN * (self._reach / sizes.radius) ** 5
+
+    @property
+    def _reach(self) -> float:
+        """Distance of the farthest point of the deformed shell from the centre of space, in shell sizes."""
+        scene, away = self.problem.scene, self._places / self.problem.scales.length
+        away[:, axes_of(scene) - 1] -= centre_of_space(scene) / self.problem.scales.length
+        return float(np.linalg.norm(away, axis=1).max())
+
+    @cached_property
+    def _places(self) -> npt.NDArray[np.float64]:
+        """Where points of the deformed mid-surface are, (n, 3) in m, several in every element."""
+        domain = self.problem.domain
+        rule = IntegrationRule(ET.TRIG if domain.mesh.dim == 3 else ET.SEGM, 2 * domain.sizes.order)
+        points = domain.mesh.MapToAllElements(rule, domain.shell)
+        place = domain.reduction.position + self.problem.system.unknowns.field("u")
+        return self.problem.embed(np.asarray(CF(place)(points)))
+
+    @cached_property
+    def _gap(self) -> float:
+        """Narrowest distance between the deformed shell and a body beside it, in shell sizes; infinite without any."""
+        scene = self.problem.scene
+        bodies = scene.ambient.bodies if scene.ambient is not None else ()
+        axes, places = axes_of(scene), [(float(a), float(b), float(c)) for a, b, c in self._places]
+        gaps = (body.clearance(place, axes) for body in bodies for place in places)
+        return min(gaps, default=math.inf) / self.problem.scales.length
+
+    @cached_property
+    def field_share(self) -> float:
+        """The field's part of the load: root mean squares of its tractions on both faces, against the mechanical
+        pressure difference. Other mechanical loads do not count: the share is that of the field or more."""
+        domain, tractions = self.problem.domain, self.problem.system.tractions
+        if not tractions:
+            return 1.0
+        area = domain.shell_integral(1.0)
+        field = 0.0
+        for traction in tractions.values():
+            traction.refresh()
+            field += math.sqrt(domain.shell_integral(InnerProduct(traction.total, traction.total)) / area)
+        mechanical = abs(self.scalars["pressure_difference"]) / self.problem.scales.stress
+        return field / (field + mechanical) if field > 0.0 else 0.0
+
+    @property
+    def strain(self) -> float:
+        """Largest principal strain of the mid-surface."""
+        return max(abs(self.scalars["stretch_max"] - 1.0), abs(self.scalars["stretch_min"] - 1.0))
+
+    @property
+    def bending(self) -> float:
+        """What bending would add to the load that a membrane carries: the bending energy of its shape over the energy
+        that carries the load. That of a curved shell is its elastic energy; a flat one, which may be stretched
+        beforehand, carries loads by its tension on its slope."""
+        k = self.state.mid_surface
+        bent = self.problem.domain.shell_integral(self._bending_energy(k))
+        unknowns = self.problem.system.unknowns
+        elastic = self.problem.system.lagrangian.elastic_energy({name: unknowns.field(name) for name in unknowns.names})
+        carried = self.problem.domain.shell_integral(self._slope_energy(k)) if self.problem.domain.is_flat else elastic
+        if bent <= NOTHING * elastic:
+            return 0.0
+        return float(self.response * bent / carried) if carried > 0.0 else math.inf
+
+    def _bending_energy(self, k: Kinematics) -> Any:
+        """W_b(K) of the theory page "Bending" at the curvature of the membrane, per reference area."""
+        physics, derivatives = self.problem.system.physics, Derivatives(self.problem.domain, k)
+        F = derivatives.gradient
+        N, n, thin = derivatives.reference_normal, derivatives.normal, 1 / k.surface_stretch
+        inverse = Inv(F + thin * OuterProduct(n, N))
+        along = derivatives.curvature * (F.trans * F)
+        measure = thin * (F.trans * derivatives.deformed_curvature * F) - 0.5 * (along + along.trans)
+        bend = inverse.trans * measure * inverse
+        square, trace = InnerProduct(bend, bend), Trace(bend)
+        law: Any = physics.law
+        if law.incompressible:
+            return law.bending_modulus(k) * physics.thickness**3 / (12 * k.surface_stretch_squared) * (
+                square + trace * trace
+            )
+        stiffness = law.youngs * physics.thickness**3 / (12 * (1 - law.poisson**2))
+        return 0.5 * stiffness * ((1 - law.poisson) * square + law.poisson * trace * trace)
+
+    def _slope_energy(self, k: Kinematics) -> Any:
+        """Of the mean tension on the slope of the deflected shell, per reference area."""
+        major, minor = self.problem.system.physics.law.principal_stresses(*self.state.principal_stretches)
+        turned = InnerProduct(k.normal, k.reference_normal)
+        return 0.25 * (major + minor) * self.problem.system.physics.thickness * (1 - turned * turned)
+
+
+def stretch_response(steps: Sequence[StepRecord]) -> float:
+    """|d ln(stretch) / d ln(load)| at the last of ``steps``, from a parabola through the last three of its stage.
+
+    Field forces grow with the square of the field's factor. A single step is taken to answer linearly.
+    """
+    stage = [step for step in steps if step.stage == steps[-1].stage][-3:]
+    field = "min_jacobian" in stage[-1].scalars and stage[-1].factor_field != stage[0].factor_field
+    factors = [step.factor_field**2 if field else step.factor_mechanical for step in stage]
+    stretches = [math.log(step.scalars["stretch"]) for step in stage]
+    if len(stage) < 2 or min(factors) <= 0.0 or len(set(factors)) < len(stage):
+        return abs(stretches[-1])
+    slope = np.polyfit(np.log(factors) - math.log(factors[-1]), stretches, len(stage) - 1)[-2]
+    return float(abs(slope))
