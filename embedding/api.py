@@ -109,7 +109,7 @@ def _solved(
     with ExitStack() as stack:
         watching: list[Listener] = [] if recorder is None else [recorder]
         if progress:
-            from embedding.view.progress import ProgressDisplay
+            from embedding.progress import ProgressDisplay
 
             watching.append(stack.enter_context(ProgressDisplay()))
         everyone = [*watching, *listeners]

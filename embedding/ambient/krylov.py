@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from ngsolve import InnerProduct
-from scipy.linalg import solve_triangular
 
 from embedding.ambient.patches import Cycle
 
@@ -107,6 +106,8 @@ def gmres(
         triangle[: count + 2, count] = column
         turned[count + 1], turned[count] = -s * turned[count], c * turned[count]
         count += 1
+    from scipy.linalg import solve_triangular  # slow to load, and small systems need no iteration
+
     weights = solve_triangular(triangle[:count, :count], turned[:count])
     found = np.zeros_like(right_side)
     for weight, known in zip(weights, basis, strict=False):

@@ -11,10 +11,10 @@ from contextlib import contextmanager
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
-
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from rich.console import Console
 
     from embedding.archive.records import ArchivedCost, ArchivedError
     from embedding.solving.solution import Assumption, Cost, CriticalPoint, ErrorEstimate, Solution
@@ -50,6 +50,8 @@ def print_rows(rows: Iterable[tuple[str, str]]) -> None:
 
 def console() -> Console:
     """A console on standard output that is wide enough for tables where nobody looks at a terminal."""
+    from rich.console import Console
+
     terminal = Console()
     return terminal if terminal.is_terminal else Console(width=200)
 

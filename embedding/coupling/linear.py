@@ -11,13 +11,16 @@ import contextlib
 import os
 import sys
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy.sparse as sparse
+import numpy.typing as npt
 
 from embedding.errors import EmbeddingError
 from embedding.geometry.spaces import Mask, as_bits, as_mask
+
+if TYPE_CHECKING:
+    from scipy import sparse
 
 ACCURATE, REFINE = 1e-8, 1e-11
 """Relative residual of a solve that is accurate, and of one that is not refined."""
@@ -76,6 +79,8 @@ class LinearSolver:
 
     def matrix(self) -> sparse.csc_array:
         """The matrix of the last :meth:`factor` on the kept unknowns."""
+        from scipy import sparse  # slow to load, and most solves do without
+
         rows, columns, entries = (np.asarray(part) for part in self._form.mat.COO())
         size = (len(self.kept), len(self.kept))
         whole = sparse.csc_array((entries, (rows, columns)), shape=size)
@@ -137,6 +142,22 @@ class DirectSolver(LinearSolver):
         update = right_side.CreateVector()
         update.data = self._inverse * right_side
         return update
+
+    def block(self, numbers: npt.NDArray[np.int64]) -> npt.NDArray[np.float64]:
+        """The block (n, n) of the inverse at the kept unknowns ``numbers``; a solve for each, the first one checked.
+
+        Raises:
+            LinearSolverError: no solver is accurate.
+        """
+        load = self._form.mat.CreateColVector()
+        update, values = load.CreateVector(), load.FV().NumPy()
+        columns = np.empty((len(numbers), len(numbers)))
+        for column, number in enumerate(numbers):
+            load[:] = 0.0
+            values[number] = 1.0
+            update.data = self._inverse * load if column else self._kept_part(load)
+            columns[:, column] = update.FV().NumPy()[numbers]
+        return columns
 
     def _kept_part(self, load: Any) -> Any:
         update = load.CreateVector()

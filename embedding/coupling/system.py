@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
-import scipy.sparse as sparse
 from ngsolve import BND, GridFunction, InnerProduct
 
 from embedding.ambient.inverse import Linear
@@ -28,8 +27,13 @@ from embedding.geometry.places import displaced
 from embedding.geometry.spaces import Mask
 from embedding.shell.point_loads import point_load_vector
 
+if TYPE_CHECKING:
+    from scipy import sparse
+
 Memory = dict[str, Any]
 """Named numbers and arrays, lists and tables of them: what a part of a run goes on from."""
+FEW = 250
+"""Most unknowns at which the inverse is told: a solve for each takes as long as one more step of Newton's method."""
 SADDLE = ("moment", "pressure", "tau_t", "tau_b", "phi", "jump")
 """Unknowns in which the Lagrangian is stationary but not least: each brings one negative eigenvalue to its matrix."""
 
@@ -235,6 +239,24 @@ class System:
             where = self.unknowns.range(name)
             numbers[where] = name in self.unknowns.numbers
         return self._solver.matrix(), numbers[self._solver.kept]
+
+    def free_in(self, name: str) -> int:
+        """Number of the unknowns of ``name`` that are free at the present load."""
+        return int(self._solver.mask[self.unknowns.range(name)].sum()) if name in self.unknowns else 0
+
+    def inverse_at(self, *names: str) -> npt.NDArray[np.float64] | None:
+        """The block (n, n) of the tangent's inverse at the free unknowns of ``names``, with a solve for each; None
+        where there are no factors of the whole tangent, or more than ``FEW`` such unknowns.
+
+        Raises:
+            LinearSolverError: the tangent is singular.
+        """
+        free = self._solver.mask
+        where = [np.arange(free.size)[self.unknowns.range(name)] for name in names if name in self.unknowns]
+        numbers = np.concatenate(where)
+        numbers = numbers[free[numbers]]
+        solver, whole = self._solver, self.unknowns.condensed is None and self.following is None
+        return solver.block(numbers) if whole and isinstance(solver, DirectSolver) and len(numbers) <= FEW else None
 
     @property
     def saddle_count(self) -> int:

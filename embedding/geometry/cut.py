@@ -14,8 +14,6 @@ from itertools import combinations
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 Integers = npt.NDArray[np.int64]
 Mask = npt.NDArray[np.bool_]
@@ -117,9 +115,7 @@ class Cut:
 
     def rooms(self) -> Integers:
         """Number of the connected part of space, parted by the interface, that each element lies in."""
-        count = len(self.elements)
-        links = coo_array((np.ones(len(self._walls)), (self._walls[:, 0], self._walls[:, 1])), shape=(count, count))
-        return np.asarray(connected_components(links, directed=False)[1])
+        return _connected(len(self.elements), self._walls[:, 0], self._walls[:, 1])
 
 
 @dataclass(frozen=True)
@@ -177,8 +173,25 @@ def _components(numbers: Integers, first: Integers, second: Integers) -> Integer
     """Component of each of ``numbers`` under the links from ``first`` to ``second``, numbered from 0."""
     unique, inverse = np.unique(numbers, return_inverse=True)
     a, b = np.searchsorted(unique, first), np.searchsorted(unique, second)
-    links = coo_array((np.ones(len(a)), (a, b)), shape=(len(unique), len(unique)))
-    return np.asarray(connected_components(links, directed=False)[1][inverse])
+    return np.asarray(_connected(len(unique), a, b)[inverse])
+
+
+def _connected(count: int, first: Integers, second: Integers) -> Integers:
+    """Component of each of 0 ... ``count`` - 1 under the links from ``first`` to ``second``, numbered from 0.
+
+    Trees of labels are hooked under each other and flattened (Y. Shiloach, U. Vishkin, J. Algorithms 3 (1982) 57); the
+    sparse graphs of SciPy do the same, but take a third of the import of ngsolve to load.
+    """
+    label = np.arange(count)
+    while True:
+        a, b = label[first], label[second]
+        apart = a != b
+        if not apart.any():
+            return np.unique(label, return_inverse=True)[1]
+        first, second, a, b = first[apart], second[apart], a[apart], b[apart]
+        np.minimum.at(label, np.maximum(a, b), np.minimum(a, b))
+        while np.any(label != (flat := label[label])):
+            label = flat
 
 
 def _key(rows: Integers, base: int) -> Integers:

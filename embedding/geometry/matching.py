@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from ngsolve import BND, CF, ElementId, IntegrationRule
-from scipy.spatial import cKDTree
 
 from embedding.geometry.facets import Facets, Integers
 
@@ -71,6 +70,8 @@ class Matching:
 
 def nearest_of(places: Floats, points: Floats, within: float = np.inf) -> Integers:
     """Number of the one of ``places`` (m, d) nearest to each of ``points`` (n, d), -1 where none is ``within``."""
+    from scipy.spatial import cKDTree  # slow to load, and few runs come here
+
     distance, number = cKDTree(places).query(points)
     return np.where(np.asarray(distance) <= within, number, -1).astype(np.int64)
 

@@ -18,7 +18,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from ngsolve import BBND, CF, H1, GridFunction, VectorH1, x, y, z
-from scipy.spatial import cKDTree
 
 from embedding.errors import SceneError
 from embedding.geometry import meshing
@@ -89,6 +88,8 @@ def _around(domain: Domain, displacement: Any, sizes: MeshSizes) -> Remeshed:
 
 def _polyhedron(domain: Domain, moved: Floats) -> Polyhedron:
     """The shell with its corners ``moved`` (n, d, d)."""
+    from scipy.spatial import cKDTree  # slow to load, and few runs come here
+
     facets, mesh = domain.facets, domain.mesh
     vertices, corners = np.unique(facets.corners, return_inverse=True)
     corners = corners.reshape(facets.corners.shape)

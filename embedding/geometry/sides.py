@@ -19,10 +19,10 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial import cKDTree
 
 from embedding.geometry.facets import Facets
 from embedding.geometry.file import file
+from embedding.geometry.matching import nearest_of
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.sizes import MeshSizes
 from embedding.scene import Arch, Cap, Cone, Cylinder, Hemisphere, Shape, SurfaceFile, TSection
@@ -72,7 +72,7 @@ def _as_in_the_file(facets: Facets, shape: SurfaceFile, normals: Floats, reducti
     seeds = Facets(alone, alone.Boundaries("shell"))
     first = np.unique(seeds.parts, return_index=True)[1]
     places, wanted = seeds.points.mean(axis=1)[first], seeds.at_centres(reduction.normal)[first]
-    near = cKDTree(facets.points.mean(axis=1)).query(places)[1]
+    near = nearest_of(facets.points.mean(axis=1), places)
     turn = np.ones(facets.parts.max() + 1)
     turn[facets.parts[near]] = np.sign(np.einsum("ij,ij->i", normals[near], wanted))
     return turn

@@ -92,7 +92,7 @@ class Part(BaseModel, metaclass=PartType):
         SceneError: on construction, listing every problem with the path of its field.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """A copy with some fields replaced; the result is validated like a new object.

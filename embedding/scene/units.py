@@ -1,6 +1,7 @@
 """Numbers at the door: SI floats, or text with a unit such as "0.2 mm", checked for dimension and range.
 
-Values are stored in SI. The unit library is slow to load, so it is imported when the first text is read.
+Values are stored in SI. The unit library takes as long to load as all of ngsolve. So prefixes of SI units and one
+division are worked out here; the library is imported for all other texts, and for what is wrong with them.
 """
 
 from __future__ import annotations
@@ -26,6 +27,10 @@ _QUANTITY = re.compile(
 )
 _UNIT = re.compile(r"(?:[^\W\d_]+|[ */()·]|(?:\*\*|\^)-?[0-9](?![0-9]))+")
 
+_PREFIXES = {"": 0, "n": -9, "u": -6, "µ": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
+_SIMPLE = re.compile(r"(?P<prefix>[nuµmckMG]?)(?P<unit>m|Pa|V|N|A|C|T)(?:(?:\^|\*\*)(?P<power>[2-9]))?")
+_TURN = {("deg", "rad"): Decimal("3.1415926535897932384626433832795028841971693993751") / 180}
+
 
 @cache
 def _registry() -> Any:
@@ -44,6 +49,9 @@ def unit_factor(unit: str, si: str) -> Decimal:
     """
     if unit == si:
         return Decimal(1)
+    known = plain_factor(unit, si)
+    if known is not None:
+        return known
     if not _UNIT.fullmatch(unit):
         raise ValueError(f'"{unit}" is not a unit')
     import pint
@@ -59,6 +67,28 @@ def unit_factor(unit: str, si: str) -> Decimal:
         raise ValueError(f'"{unit}" is a unit of {dimension}') from error
     except Exception as error:  # the unit library answers odd text with many kinds of error
         raise ValueError(f'"{unit}" is not a unit') from error
+
+
+def plain_factor(unit: str, si: str) -> Decimal | None:
+    """The same for SI units with prefixes and their quotients, such as "kV/mm" for "V/m"; None for all others."""
+    stated, wanted = ([_simple(part) for part in text.split("/")] for text in (unit, si))
+    if len(stated) != len(wanted) or len(stated) > 2:
+        return None
+    exponent = 0
+    for sign, one, other in zip((1, -1), stated, wanted, strict=False):
+        if one is None or other is None or one[1:] != other[1:]:
+            return _TURN.get((unit, si))
+        exponent += sign * (one[0] - other[0])
+    return Decimal(1).scaleb(exponent)
+
+
+def _simple(text: str) -> tuple[int, str, int] | None:
+    """Power of ten, unit without prefix and power of the unit: (-9, "m", 3) for "mm^3"; None for what is not simple."""
+    match = _SIMPLE.fullmatch(text)
+    if match is None:
+        return None
+    power = int(match["power"] or 1)
+    return power * _PREFIXES[match["prefix"]], match["unit"], power
 
 
 def parse_quantity(text: str, si: str) -> float:

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-import scipy.linalg
 
 from embedding.coupling.linear import LinearSolverError
 from embedding.errors import EmbeddingError
@@ -225,10 +224,10 @@ def nearest_mode(equilibrium: Equilibrium, start: Array | None = None) -> tuple[
 
 def _pencil(stiffness: Array, mass: Array) -> tuple[Any, Any]:
     """Eigenvalues and vectors of a small symmetric pencil whose mass matrix may be nearly singular."""
-    sizes, axes = scipy.linalg.eigh((mass + mass.T) / 2)
+    sizes, axes = np.linalg.eigh((mass + mass.T) / 2)
     kept = sizes > 1e-12 * sizes.max()
     basis = axes[:, kept] / np.sqrt(sizes[kept])
-    values, vectors = scipy.linalg.eigh(basis.T @ ((stiffness + stiffness.T) / 2) @ basis)
+    values, vectors = np.linalg.eigh(basis.T @ ((stiffness + stiffness.T) / 2) @ basis)
     return values, basis @ vectors
 
 

@@ -8,26 +8,36 @@ negative eigenvalues. Some of those belong to every stable state and do not coun
 * one for each bending moment that is not eliminated before;
 * one for each free potential, whose energy has the other sign: eliminated, the field follows the shell's motion.
 
+Of a membrane with few unknowns the inverse serves instead, whose factors are at hand: its block of the displacements
+is the inverse of the stiffness that is left when all else is eliminated, on the motions that the multipliers allow.
+
 What is left is the number of unstable modes among the motions that the multipliers allow, voltages and charges being
 held where they are given. Theory page, "Stability".
 """
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy.sparse as sparse
-from scipy.sparse.linalg import splu
 
 from embedding.coupling.system import System
 from embedding.geometry.spaces import Mask
+
+if TYPE_CHECKING:
+    from scipy import sparse
 
 SHIFT = 1e-13
 """Stiffness of free rigid motions, whose pivots would otherwise be rounding, relative to the largest one."""
 
 SMALL = 1000
 """Rows of a matrix whose eigenvalues may be computed."""
+
+PLAIN = frozenset({"y_t", "y_b", "tau_t", "tau_b", "phi", "jump"})
+"""Unknowns that may be beside the displacement there: eliminated, they bring the eigenvalues of every stable state."""
+
+APART = 1e3
+"""Eigenvalues of the inverse that vanish are smaller than all others by more than this."""
 
 MOST = 20_000
 """Unknowns of a coupled problem up to which modes are counted: in three dimensions one count costs two or three
@@ -49,10 +59,30 @@ def unstable_modes(system: System) -> int | None:
         return 0
     if not countable(system) or (system.physics.field is not None and system.free_count > MOST):
         return None
+    few = _unstable_by_inverse(system)
+    if few is not None:
+        return few
     matrix, multipliers = system.tangent()
     shift = SHIFT if system.unknowns.rigid else 0.0
     count = negative_eigenvalues(matrix, multipliers, shift=shift, less=system.saddle_count)
     return None if count is None else count + system.more_negative
+
+
+def _unstable_by_inverse(system: System) -> int | None:
+    """Negative eigenvalues of the displacements' block of the inverse, but for those that multipliers, of rigid motions
+    and of the volume, make vanish; None where that is dearer than the other way, or not safe."""
+    unknowns = system.unknowns
+    if not set(unknowns.names) <= PLAIN | {"u", *unknowns.numbers}:
+        return None
+    inverse = system.inverse_at("u", "axial")
+    if inverse is None:
+        return None
+    values = np.linalg.eigvalsh((inverse + inverse.T) / 2)
+    values = values[np.argsort(np.abs(values))]
+    vanishing, rest = np.split(values, [len(unknowns.rigid) + system.free_in("pressure")])
+    if not len(rest) or not APART * np.abs(vanishing).max(initial=0.0) < abs(rest[0]):
+        return None
+    return int((rest < 0).sum())
 
 
 def negative_eigenvalues(matrix: sparse.csc_array, border: Mask, *, shift: float = 0.0, less: int = 0) -> int | None:
@@ -61,6 +91,8 @@ def negative_eigenvalues(matrix: sparse.csc_array, border: Mask, *, shift: float
     Rows in ``border``, few and dense, are eliminated last. A pivot that vanishes is no eigenvalue that does: then those
     of a small matrix are computed, and for a large one the answer is None.
     """
+    from scipy import sparse  # slow to load, and a membrane with few unknowns does without
+
     inner, outer = np.flatnonzero(~border), np.flatnonzero(border)
     core = sparse.csc_array(matrix[inner][:, inner])
     if shift:
@@ -81,9 +113,12 @@ def _factors(core: sparse.csc_array) -> Any:
 
     SuperLU works on blocks of columns, which for large matrices outweighs that it also computes U = D L^T.
     """
+    from scipy.sparse import csc_matrix
+    from scipy.sparse.linalg import splu
+
     try:
         factors = splu(
-            sparse.csc_matrix(core),
+            csc_matrix(core),
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
             options={"SymmetricMode": True},

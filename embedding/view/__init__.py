@@ -1,4 +1,4 @@
-"""What people look at: pictures and charts from an archive, drawn without a display, and the progress of a solve."""
+"""What people look at: pictures and charts from an archive, drawn without a display."""
 
 from embedding.view.animation import animation
 from embedding.view.curves import probe_plot

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
+from embedding.progress import ProgressDisplay
 from embedding.scene import load_scene
-from embedding.view.progress import ProgressDisplay
 from tests.cli.pretend import iteration, play, problem, record, solution
 
 

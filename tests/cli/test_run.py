@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from embedding.errors import SolveError
-from embedding.view.progress import ProgressDisplay
+from embedding.progress import ProgressDisplay
 from tests.cli.conftest import Outcome
 from tests.cli.pretend import play, solution
 

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
+from itertools import product
+
+import pint
 import pytest
 
-from embedding.scene.units import parse_quantity, unit_factor
+from embedding.scene.units import parse_quantity, plain_factor, unit_factor
 
 
 @pytest.mark.parametrize(
@@ -66,3 +70,17 @@ def test_refusal(text: str, si: str, reason: str) -> None:
 def test_factor() -> None:
     assert unit_factor("kPa", "Pa") == 1000
     assert unit_factor("furlong*furlong", "furlong*furlong") == 1
+
+
+def test_what_needs_no_library_is_as_the_library_has_it() -> None:
+    registry = pint.UnitRegistry(non_int_type=Decimal)
+    pairs = [(prefix + unit, unit) for prefix, unit in product(("", *"nuµmckMG"), ("m", "Pa", "V", "N", "A", "C", "T"))]
+    pairs += [("kV/mm", "V/m"), ("mA/cm", "A/m"), ("uC/cm^2", "C/m^2"), ("kN/mm^3", "N/m^3"), ("N/mm**2", "N/m**2")]
+    for unit, si in [*pairs, ("deg", "rad")]:
+        assert plain_factor(unit, si) == registry.Quantity(Decimal(1), registry.parse_units(unit)).to(si).magnitude
+
+
+@pytest.mark.parametrize("unit", ["inch", "N/mm^2", "kg", "m^2", "mm/m", "1/m", "V/m/m", "", "/", "Pam"])
+def test_all_else_is_left_to_the_library(unit: str) -> None:
+    assert plain_factor(unit, "Pa") is None
+    assert plain_factor(unit, "N/m") is None

@@ -15,11 +15,11 @@ from rich.console import Console
 from embedding import Listener, Result, Scene, SceneError, Solution, explain, open_archive, solve
 from embedding.coupling.system import System
 from embedding.geometry.spaces import as_mask
+from embedding.progress import ProgressDisplay
 from embedding.scene.scales import EPSILON_0
 from embedding.solving.events import StepRecord
 from embedding.solving.partition import FieldPart, ShellAlone
 from embedding.solving.state import State
-from embedding.view.progress import ProgressDisplay
 from problems import charged_balloon, grounded_balloon, permeable_sphere
 from problems.exact.roots import bracketed_root
 from tests.coupling.scenes import coupled

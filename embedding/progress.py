@@ -1,22 +1,24 @@
-"""Progress of a solve on standard error: a live panel on a terminal, plain lines elsewhere."""
+"""Progress of a solve on standard error: a live panel on a terminal, plain lines elsewhere.
+
+What draws the panel is imported on a terminal only.
+"""
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Callable
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
-from rich.console import Console, Group
-from rich.live import Live
-from rich.progress_bar import ProgressBar
-from rich.table import Table
-from rich.text import Text
-
 from embedding.solving.events import Iteration, Listener, StepRecord
 from embedding.solving.path import planned_steps
 
 if TYPE_CHECKING:
+    from rich.console import Console, Group
+    from rich.live import Live
+    from rich.table import Table
+
     from embedding.solving.problem import Problem
     from embedding.solving.solution import Solution
     from embedding.solving.state import State
@@ -29,7 +31,7 @@ class ProgressDisplay(Listener):
     """
 
     def __init__(self, console: Console | None = None, clock: Callable[[], float] = time.monotonic) -> None:
-        self.console = console if console is not None else Console(stderr=True)
+        self.console = console if console is not None or not sys.stderr.isatty() else _terminal()
         self.clock = clock
         self.began = clock()
         self.title, self.planned, self.stage_ends = "", 0, list[tuple[int, str]]()
@@ -43,7 +45,9 @@ class ProgressDisplay(Listener):
         self.live: Live | None = None
 
     def __enter__(self) -> Self:
-        if self.console.is_terminal:
+        if self.console is not None and self.console.is_terminal:
+            from rich.live import Live
+
             self.live = Live(get_renderable=self.panel, console=self.console, refresh_per_second=5, transient=True)
             self.live.start()
         return self
@@ -114,6 +118,11 @@ class ProgressDisplay(Listener):
 
     def panel(self) -> Group:
         """The live picture: a bar over the steps, the present load and its Newton history."""
+        from rich.console import Group
+        from rich.progress_bar import ProgressBar
+        from rich.table import Table
+        from rich.text import Text
+
         total = max(self.planned, self.accepted_steps, 1)
         head = Table.grid(padding=(0, 2))
         head.add_row(
@@ -134,6 +143,8 @@ class ProgressDisplay(Listener):
 
     def _history(self) -> Table:
         """Newton steps of the present load step, the newest eight."""
+        from rich.table import Table
+
         table = Table(box=None, padding=(0, 2), header_style="dim")
         for heading in (self.heading, "update", "residual", "p_t [Pa]", "p_b [Pa]"):
             table.add_column(heading, justify="right")
@@ -175,5 +186,13 @@ class ProgressDisplay(Listener):
 
     def _line(self, text: str) -> None:
         """A plain line where there is no terminal to draw on."""
-        if self.live is None:
+        if self.console is None:
+            print(text, file=sys.stderr, flush=True)
+        elif self.live is None:
             self.console.print(text, soft_wrap=True, markup=False, highlight=False)
+
+
+def _terminal() -> Console:
+    from rich.console import Console
+
+    return Console(stderr=True)
