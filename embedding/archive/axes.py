@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 import h5py
+from h5py import h5ds
 
 AXES = ("CLASS", "NAME", "DIMENSION_LABELS", "DIMENSION_LIST", "REFERENCE_LIST")
 """Attributes that HDF5 makes for that."""
@@ -30,10 +31,10 @@ def label_axes(file: Any) -> None:
     scales = {label: own[name] for name, label in SCALES.items()}
     for group, label in TABLES.items():
         for dataset in own[group].values():
-            if not dataset.dims[0].label:
+            if not h5ds.get_label(dataset.id, 0):
                 _label(dataset, (label, "component"))
-                if not dataset.is_scale:
-                    dataset.dims[0].attach_scale(scales[label])
+                if not h5ds.is_scale(dataset.id):
+                    h5ds.attach_scale(dataset.id, scales[label].id, 0)
     for block in file["VTKHDF/Assembly/Scene"]:
         group = file["VTKHDF"][block]
         for name, axes in OF_MESHES.items():
@@ -43,6 +44,6 @@ def label_axes(file: Any) -> None:
 
 
 def _label(dataset: h5py.Dataset, axes: tuple[str, ...]) -> None:
-    for axis, label in zip(dataset.dims, axes, strict=False):
-        if not axis.label:
-            axis.label = label
+    for axis, label in enumerate(axes[: dataset.ndim]):
+        if not h5ds.get_label(dataset.id, axis):
+            h5ds.set_label(dataset.id, axis, label.encode())

@@ -15,6 +15,7 @@ import h5py
 import numpy as np
 import numpy.typing as npt
 
+from embedding.archive.arrays import attributes, rows, stored_in, value_of
 from embedding.archive.axes import AXES
 from embedding.archive.layout import DIGESTS, part_of, table
 
@@ -42,14 +43,15 @@ def digest_of(*parts: Any) -> Digest:
 def rows_digests(own: Any, begin: int, end: int) -> Iterator[Digest]:
     """Of the steps from ``begin`` on, before ``end``: what they have in the tables of ``own``, the group /embedding."""
     columns = {
-        f"{name}/{column}": dataset[begin:end]
+        f"{name}/{column}": rows(dataset, begin, end)
         for name in TABLES
-        for column, dataset in sorted(own[name].items())
+        for column, dataset in stored_in(own[name]).items()
         if column not in DIGESTS
     }
     ends = columns["steps/newton_end"].tolist()
     first = int(own["steps/newton_end"][begin - 1]) if begin else 0
-    newton = {name: column[first : ends[-1] if ends else first] for name, column in sorted(own["newton"].items())}
+    last = ends[-1] if ends else first
+    newton = {name: rows(column, first, last) for name, column in stored_in(own["newton"]).items()}
     starts = [0, *(end - first for end in ends)]
     for row in range(end - begin):
         parts: list[Any] = []
@@ -76,35 +78,35 @@ def fields_digest(file: Any, step: int) -> Digest:
         group = file["VTKHDF"][block]
         points = int(group["NumberOfPoints"][part_of(group, step)])
         begin = int(file["embedding/vtk"][table("Row", block)][step])
-        for name, dataset in sorted(group["PointData"].items()):
-            parts += [f"{block}/{name}", dataset[begin : begin + points]]
+        for name, dataset in stored_in(group["PointData"]).items():
+            parts += [f"{block}/{name}", rows(dataset, begin, begin + points)]
     return digest_of(*parts)
 
 
 def record_digest(file: Any) -> Digest:
     """Of all that does not grow with the steps: documents, meshes, origins, and the names and attributes of all."""
-    return digest_of(*_static(file, ""))
+    return digest_of(*_static(file["/"].id, ""))
 
 
 def _static(group: Any, path: str) -> Iterator[Any]:
     yield from _attributes(group, path)
-    for name in sorted(group):
+    for name in sorted(link.decode() for link in group):
         place = f"{path}/{name}".lstrip("/")
         yield place
         if path == "VTKHDF/Assembly/Scene":
-            yield group.get(name, getlink=True).path
+            yield h5py.Group(group).get(name, getlink=True).path
             continue
-        item = group[name]
+        item = h5py.h5o.open(group, name.encode())
         if name in LINKS and place.startswith("VTKHDF/"):
-            yield from _names(item)
+            yield from _names(h5py.Group(item))
             continue
-        if isinstance(item, h5py.Group):
+        if isinstance(item, h5py.h5g.GroupID):
             yield from _static(item, place)
             continue
         yield from _attributes(item, place)
         yield f"{item.dtype} {item.shape[1:]}"
         if not _grows(place):
-            yield item[...]
+            yield h5py.Dataset(item)[...]
 
 
 def _names(group: Any) -> Iterator[str]:
@@ -122,10 +124,10 @@ def _grows(place: str) -> bool:
 
 
 def _attributes(item: Any, place: str) -> Iterator[Any]:
-    for name in sorted(item.attrs):
+    for name, stored in attributes(item).items():
         if name not in CHANGING:
             yield f"{place}@{name}"
-            yield np.asarray(item.attrs[name])
+            yield value_of(stored)
 
 
 def slot_digest(slot: Any) -> Digest:

@@ -34,6 +34,7 @@ import h5py
 import numpy as np
 import numpy.typing as npt
 
+from embedding.archive.arrays import growable, link, note, put
 from embedding.archive.lagrange import LagrangeBlock
 from embedding.archive.memory import packed
 from embedding.archive.units import scalar_unit
@@ -42,7 +43,6 @@ SCHEMA = 3
 LIBVER = ("v110", "v110")  # chunk indices of this format grow without being rewritten
 VTKHDF_VERSION = (2, 2)
 FIELD_CHUNK = 1 << 16  # rows at most in one chunk of a field
-TABLE_CHUNK = 256
 STAGE = h5py.string_dtype("utf-8", 64)
 STEP_COLUMNS = {
     "number": ("i8", "1"),
@@ -68,44 +68,6 @@ TOPOLOGY = PLACES[2:]
 """What VTKHDF asks of every step: where its mesh begins, counted in these; the last ones in a column."""
 
 
-def note(item: Any, name: str, text: str) -> None:
-    """Give a group or dataset a text as an attribute.
-
-    Of fixed length: HDF5 keeps texts of variable length in heaps without checksums, and reads damaged ones without end.
-    """
-    item.attrs[name] = np.bytes_(text.encode())
-
-
-def noted(item: Any, name: str) -> str:
-    """The text of an attribute."""
-    return bytes(item.attrs[name]).decode()
-
-
-def growable(
-    group: Any,
-    name: str,
-    dtype: Any,
-    unit: str,
-    shape: tuple[int, ...] = (),
-    chunk: int = TABLE_CHUNK,
-    checked: bool = False,
-) -> Any:
-    """An empty dataset (0, *shape) that grows along its first axis and whose chunk index exists already."""
-    dataset = group.create_dataset(
-        name,
-        shape=(0, *shape),
-        maxshape=(None, *shape),
-        chunks=(chunk, *shape),
-        dtype=dtype,
-        fletcher32=checked,
-    )
-    dataset.resize(1, axis=0)
-    dataset[0] = np.zeros(shape, dtype)
-    dataset.resize(0, axis=0)
-    note(dataset, "unit", unit)
-    return dataset
-
-
 def to_disk(path: str | os.PathLike[str]) -> None:
     """Wait until a file or folder, as it is now, has reached the disk."""
     descriptor = os.open(path, os.O_RDONLY)
@@ -113,12 +75,6 @@ def to_disk(path: str | os.PathLike[str]) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
-
-
-def put(dataset: Any, start: int, rows: Any) -> None:
-    """Write ``rows`` from row ``start`` on, over whatever an unfinished step may have left there."""
-    dataset.resize(max(start + len(rows), len(dataset)), axis=0)
-    dataset[start : start + len(rows)] = rows
 
 
 def chunk_rows(points: int) -> int:
@@ -291,20 +247,21 @@ def create_fields(file: Any, fields: Mapping[str, Mapping[str, tuple[str, tuple[
         group = file["VTKHDF"][block]
         steps = group.create_group("Steps", track_order=True)
         steps.attrs.create("NSteps", np.int64(0))
-        steps["Values"] = shared["values"]
+        link(steps, "Values", shared["values"])
         for place in PLACES:
-            steps[f"{place}Offsets"] = shared["zeros" if place in TOPOLOGY else "zero"]
-        steps["NumberOfParts"] = shared["one"]
+            link(steps, f"{place}Offsets", shared["zeros" if place in TOPOLOGY else "zero"])
+        link(steps, "NumberOfParts", shared["one"])
         chunk = chunk_rows(int(group["NumberOfPoints"][0]))
         data = {kind: group.create_group(kind, track_order=True) for kind in KINDS}
         offsets = {kind: steps.create_group(f"{kind}Offsets", track_order=True) for kind in KINDS}
         first = growable(shared, table("Row", block), "i8", "1")
         for name, (unit, shape) in declared.items():
             growable(data["PointData"], name, "f4", unit, shape, chunk, checked=True)
-            offsets["PointData"][name] = first
+            link(offsets["PointData"], name, first)
+        rows = shared["row"]
         for name, dataset in file["embedding/scalars"].items():
-            data["FieldData"][name] = dataset
-            offsets["FieldData"][name] = shared["row"]
+            link(data["FieldData"], name, dataset)
+            link(offsets["FieldData"], name, rows)
 
 
 def _group(parent: Any, name: str, kind: str) -> Any:

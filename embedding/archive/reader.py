@@ -11,6 +11,7 @@ from typing import Any, cast
 import numpy as np
 import numpy.typing as npt
 
+from embedding.archive.arrays import noted
 from embedding.archive.digests import damaged_rows, digest_of, record_digest, slot_digest
 from embedding.archive.file import reading
 from embedding.archive.layout import (
@@ -20,7 +21,6 @@ from embedding.archive.layout import (
     STEP_COLUMNS,
     count_of,
     mesh_of,
-    noted,
     part_of,
     table,
 )

@@ -18,6 +18,7 @@ from embedding.archive.file import check_target
 from embedding.archive.lagrange import LagrangeBlock
 from embedding.archive.writer import ArchiveWriter, SampledField
 from embedding.solving.events import Listener
+from embedding.timing import part
 
 if TYPE_CHECKING:
     from embedding.archive.reader import Archive
@@ -62,6 +63,7 @@ class Recorder(Listener):
         """Where the record of the run is, or will be."""
         return self._writer.path if self._writer is not None else self._target
 
+    @part("archive")
     def started(self, problem: Problem) -> None:
         """Build the pictured blocks; nothing is written yet, but that a run which goes on takes over its archive."""
         self._problem = problem
@@ -79,6 +81,7 @@ class Recorder(Listener):
             for name, block in problem.blocks.items()
         }
 
+    @part("archive")
     def accepted(self, state: State, record: StepRecord) -> None:
         """Commit the step."""
         writer, problem = self._writer, self._problem
@@ -86,6 +89,7 @@ class Recorder(Listener):
             fields = _sampled(writer.blocks, state.fields(), problem)
             writer.append(record, fields, {**state.memory(), "cuts": self._cuts})
 
+    @part("archive")
     def remeshed(self, problem: Problem) -> None:
         """Steps from here on are on the new mesh."""
         self._problem = problem
@@ -96,6 +100,7 @@ class Recorder(Listener):
         """Remember the cut; it is written with the end of the run."""
         self._cuts.append({"step": step_number, "fraction": fraction, "reason": reason})
 
+    @part("archive")
     def finished(self, solution: Solution) -> None:
         """Write how the run ended."""
         if self._writer is None:

@@ -12,10 +12,11 @@ import h5py
 import numpy as np
 
 from embedding.archive import layout
+from embedding.archive.arrays import growable, put
 from embedding.archive.axes import AXES, label_axes
 from embedding.archive.digests import slot_digest
 from embedding.archive.file import check_target, reading
-from embedding.archive.layout import LIBVER, SLOTS, count_of, counted, growable, part_of, table, to_disk
+from embedding.archive.layout import LIBVER, SLOTS, count_of, counted, part_of, table, to_disk
 from embedding.archive.verification import reading_what_is_left, verified
 from embedding.archive.views import write_views
 from embedding.errors import ArchiveError
@@ -102,8 +103,8 @@ def _copy_memory(old: Any, new: Any, steps: int) -> bool:
     for slot, group in new["embedding/checkpoint"].items():
         if slot in whole:
             group["extent"][...], text, numbers = whole[slot]
-            layout.put(group["text"], 0, text)
-            layout.put(group["numbers"], 0, numbers)
+            put(group["text"], 0, text)
+            put(group["numbers"], 0, numbers)
         group["digest"][...] = slot_digest(group)
     return SLOTS[steps % 2] in whole
 

@@ -22,6 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from embedding.archive import layout, views
+from embedding.archive.arrays import noted, put, rows, stored_in
 from embedding.archive.axes import label_axes
 from embedding.archive.digests import damaged_rows, digest_of, fields_digest, record_digest, rows_digests, slot_digest
 from embedding.archive.file import check_target, reading
@@ -144,7 +145,7 @@ class ArchiveWriter:
             for name, block in self.blocks.items():
                 layout.part_tables(file, name, steps)
                 self._begin[name] = layout.add_mesh(file["VTKHDF"][name], block)
-            layout.put(own["steps/rows_digest"], 0, list(rows_digests(own, 0, steps)))  # of more tables than before
+            put(own["steps/rows_digest"], 0, list(rows_digests(own, 0, steps)))  # of more tables than before
             self._add_origins(own)
             label_axes(file)
             file["embedding/digest"][...] = record_digest(file)
@@ -191,21 +192,21 @@ class ArchiveWriter:
         own, step = file["embedding"], self.committed
         shared = own["vtk"]
         first = {name: layout.first_row(shared, file["VTKHDF"][name], name, step) for name in self.blocks}
-        data, scalars = {name: file["VTKHDF"][name]["PointData"] for name in self.blocks}, own["scalars"]
+        data = {name: stored_in(file["VTKHDF"][name]["PointData"]) for name in self.blocks}
+        scalars, tables = stored_in(own["scalars"]), stored_in(shared)
         for field in fields:
-            layout.put(self._known(data[field.block], field.name), first[field.block], field.values.astype("f4"))
+            put(self._known(data[field.block], field.name), first[field.block], field.values.astype("f4"))
         for name, value in _scalars(record).items():
-            layout.put(self._known(scalars, name), step, [[value]])
+            put(self._known(scalars, name), step, [[value]])
         self._rows(own, record)
-        tables = {"values": record.number, "row": step, "zero": 0, "zeros": 0, "one": 1}
-        tables |= {layout.table("Row", block): row for block, row in first.items()}
+        entries = {"values": record.number, "row": step, "zero": 0, "zeros": 0, "one": 1}
+        entries |= {layout.table("Row", block): row for block, row in first.items()}
         for block, begin in self._begin.items():
-            tables |= {layout.table(place, block): value for place, value in begin.items()}
-        for name, entry in tables.items():
-            table = shared[name]
-            layout.put(table, step, np.reshape(entry, (1, *table.shape[1:])))
-        layout.put(own["steps/rows_digest"], step, list(rows_digests(own, step, step + 1)))
-        layout.put(own["steps/fields_digest"], step, [fields_digest(file, step)])
+            entries |= {layout.table(place, block): value for place, value in begin.items()}
+        for name, entry in entries.items():
+            put(tables[name], step, np.reshape(entry, (1, *tables[name].shape[1:])))
+        put(own["steps/rows_digest"], step, list(rows_digests(own, step, step + 1)))
+        put(own["steps/fields_digest"], step, [fields_digest(file, step)])
         self._keep(own["checkpoint"][layout.SLOTS[(step + 1) % 2]], memory)
         _synchronise(file)
         for block in self.blocks:
@@ -217,18 +218,18 @@ class ArchiveWriter:
         """Write what the run goes on from into the slot that does not count yet."""
         text, numbers = packed(memory)
         data = np.frombuffer(text.encode(), "u1")
-        layout.put(slot["text"], 0, data)
-        layout.put(slot["numbers"], 0, numbers)
+        put(slot["text"], 0, data)
+        put(slot["numbers"], 0, numbers)
         slot["extent"][...] = [self.committed + 1, len(data), len(numbers)]
         slot["digest"][...] = slot_digest(slot)
 
     def _rows(self, own: Any, record: StepRecord) -> None:
         """The rows of a step in the tables of steps and of Newton iterations."""
         step = self.committed
-        steps, newton = own["steps"], own["newton"]
-        begin = int(steps["newton_end"][step - 1]) if step else 0
+        steps, newton = stored_in(own["steps"]), stored_in(own["newton"])
+        begin = int(rows(steps["newton_end"], step - 1, step)[0]) if step else 0
         for name in layout.NEWTON_COLUMNS:
-            layout.put(newton[name], begin, [getattr(one, name) for one in record.iterations])
+            put(newton[name], begin, [getattr(one, name) for one in record.iterations])
         row = {
             "number": record.number,
             "stage": _short(record.stage),
@@ -238,18 +239,18 @@ class ArchiveWriter:
             "newton_end": begin + len(record.iterations),
         }
         for name in layout.STEP_COLUMNS:
-            layout.put(steps[name], step, [row[name]])
+            put(steps[name], step, [row[name]])
 
     def _end(self, file: Any, data: npt.NDArray[np.uint8]) -> None:
         finish = file["embedding/finish"]
-        layout.put(finish["json"], 0, data)
+        put(finish["json"], 0, data)
         finish["digest"][...] = digest_of(data)
         _synchronise(file)
         finish["length"][...] = layout.counted(len(data))
         _synchronise(file)
 
-    def _known(self, group: Any, name: str) -> Any:
-        dataset = group.get(name)
+    def _known(self, known: Mapping[str, Any], name: str) -> Any:
+        dataset = known.get(name)
         if dataset is None:
             raise ArchiveError(f"{self.path}: a step brings {name!r}, which the first step did not have")
         return dataset
@@ -260,7 +261,7 @@ class ArchiveWriter:
         the run."""
         try:
             with h5py.File(path, mode, libver=layout.LIBVER, locking=False) as file:
-                if mode == "r+" and ("embedding" not in file or layout.noted(file["embedding"], "run") != self._run):
+                if mode == "r+" and ("embedding" not in file or noted(file["embedding"], "run") != self._run):
                     raise ArchiveError(f"{path}: another run has replaced the archive of this one")
                 yield file
         except (OSError, RuntimeError) as error:

@@ -8,7 +8,9 @@ from typing import Annotated
 from cyclopts import App, Parameter
 
 from embedding import __version__
+from embedding.cli.bench import bench_app
 from embedding.cli.files import UsageError, check_output, default_archive, whole_file
+from embedding.cli.loading import loading
 from embedding.cli.output import print_json, print_solution, solution_summary
 from embedding.cli.plot import plot
 from embedding.cli.questions import balance, compare, integrals, probe
@@ -46,9 +48,10 @@ def run(
     ParaView opens the views beside it; `embedding info` and `embedding plot` read it. A solve that fails
     leaves the accepted steps in it (exit code 3).
     """
-    from embedding.scene import load_scene
+    with loading():
+        from embedding.scene import load_scene
 
-    stated = load_scene(scene, overrides)
+        stated = load_scene(scene, overrides)
     archive = check_output("--out", default_archive(stated.name) if out is None else out, ".vtkhdf")
     if picture is not None:
         from embedding.view.rendering import require_rendering
@@ -56,8 +59,10 @@ def run(
         check_output("--picture", picture, ".png")
         require_rendering()
 
-    from embedding.api import solve
-    from embedding.cli.interrupts import Interrupts
+    with loading():
+        from embedding.api import solve
+        from embedding.archive import Recorder  # noqa: F401
+        from embedding.cli.interrupts import Interrupts
 
     with Interrupts() as interrupts:
         solution = solve(stated, archive=archive, progress=progress, listeners=[interrupts])
@@ -84,9 +89,11 @@ def resume(
 
     With the same versions, threads and machine everything comes out as it would have without the interruption.
     """
-    from embedding.api import resume as go_on
-    from embedding.cli.interrupts import Interrupts
-    from embedding.cli.output import warnings_told
+    with loading():
+        from embedding.api import resume as go_on
+        from embedding.archive import Recorder  # noqa: F401
+        from embedding.cli.interrupts import Interrupts
+        from embedding.cli.output import warnings_told
 
     with Interrupts() as interrupts, warnings_told():
         solution = go_on(archive, progress=progress, listeners=[interrupts])
@@ -160,6 +167,7 @@ def verify(
         print(found.message)
 
 
+app.command(bench_app)
 app.command(plot)
 for question in (probe, integrals, balance, compare):
     app.command(question)

@@ -20,6 +20,7 @@ from embedding.ambient.patches import Cycle, VertexPatches
 from embedding.coupling.linear import ACCURATE, DirectSolver, LinearSolver, LinearSolverError
 from embedding.coupling.unknowns import FACES, SIDES, Unknowns
 from embedding.geometry.spaces import Mask, as_bits, scalar_mask
+from embedding.timing import part
 
 Array = npt.NDArray[np.float64]
 POTENTIAL_TOLERANCE = 1e-10
@@ -70,7 +71,8 @@ class PotentialSolver(LinearSolver):
             self._patches = VertexPatches(self._space, self.mask, stiff)
         if self._cycle is None:
             try:
-                self._cycle = self._patches.cycle(self._form.mat)
+                with part("preconditioner"):
+                    self._cycle = self._patches.cycle(self._form.mat)
             except Exception as error:  # NGSolve raises its own untyped exceptions for singular blocks
                 raise LinearSolverError(f"the linear system could not be solved (singular: {error})") from error
         return self._cycle

@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from embedding.errors import EmbeddingError
 from embedding.geometry.spaces import Mask, as_bits, as_mask
+from embedding.timing import part
 
 if TYPE_CHECKING:
     from scipy import sparse
@@ -87,6 +88,7 @@ class LinearSolver:
         numbers = np.flatnonzero(self.kept)
         return sparse.csc_array(whole[numbers][:, numbers])
 
+    @part("solution")
     def solve(self, right_side: Any) -> Any:
         """The update vector for ``right_side`` (left as it is), zero on the unknowns that are not free.
 
@@ -171,7 +173,8 @@ class DirectSolver(LinearSolver):
             with silent_stdout() if method == "umfpack" else contextlib.nullcontext():
                 try:
                     if method != self._method:
-                        self._inverse = self._form.mat.Inverse(self.free, inverse=method)
+                        with part("factorisation"):
+                            self._inverse = self._form.mat.Inverse(self.free, inverse=method)
                         self._method = method
                 except Exception as error:  # NGSolve raises its own untyped exceptions for singular matrices
                     worst = f"{method}: {error}"

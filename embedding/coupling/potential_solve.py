@@ -14,6 +14,7 @@ from embedding.coupling.iterative import PotentialSolver
 from embedding.coupling.lagrangian import Lagrangian
 from embedding.coupling.linear import DirectSolver
 from embedding.geometry.spaces import as_bits
+from embedding.timing import part
 
 ENOUGH, MOST_STEPS = 1e-13, 40
 """Newton's method for a saturating shell ends when the energy of a step is this part of the field's, or gives up; where
@@ -97,6 +98,7 @@ class PotentialSolve:
         self.form.Apply(state.vec, residual)
         return float(residual[self._starts[conductor.name] + conductor.number])
 
+    @part("potential")
     def solve(self) -> None:
         """Solve for the potential and write it into the state."""
         if not self._free.any():

@@ -26,6 +26,7 @@ from embedding.geometry.domain import Domain
 from embedding.geometry.places import displaced
 from embedding.geometry.spaces import Mask
 from embedding.shell.point_loads import point_load_vector
+from embedding.timing import part
 
 if TYPE_CHECKING:
     from scipy import sparse
@@ -44,6 +45,7 @@ class System:
     All quantities are dimensionless. The state is ``unknowns.state`` plus the ambient's interior motion.
     """
 
+    @part("forms")
     def __init__(self, domain: Domain, physics: Physics, linear: Linear = "auto") -> None:
         self.domain, self.physics = domain, physics
         self.factors = Factors()
@@ -151,6 +153,7 @@ class System:
         alone, together = (solver.iterations[-1:] if solver is not None else [] for solver in (potential, joint))
         return sum(alone), sum(together)
 
+    @part("motion")
     def follow(self) -> bool:
         """Let the ambient's mesh follow the faces; False if elements would turn over."""
         places = self._places()
@@ -174,6 +177,7 @@ class System:
     def _displacement(self) -> npt.NDArray[np.float64]:
         return np.array(self.unknowns.field("u").vec.FV().NumPy())
 
+    @part("residual")
     def residual(self) -> Any:
         """Internal minus external forces at the present state and load, a new vector."""
         self._measure_rotations()
@@ -203,6 +207,7 @@ class System:
             self.unknowns.bending.refresh(self.lagrangian.kinematics(values))
             self._measured = present
 
+    @part("matrix")
     def linearise(self) -> None:
         """Assemble the tangent at the present state and load, for :meth:`solve`."""
         vector, membrane = self.unknowns.state.vec, self.lagrangian.membrane

@@ -37,6 +37,7 @@ from embedding.geometry.places import Place, unknowns_at
 from embedding.geometry.spaces import Mask, TraceSpace, as_bits, plane_mask
 from embedding.shell.batched import supported
 from embedding.shell.bending import CurveBending, Stiffness, SurfaceBending
+from embedding.timing import part
 
 FACES = ("t", "b")
 SIDES = {"t": "outside", "b": "inside"}
@@ -45,6 +46,7 @@ SIDES = {"t": "outside", "b": "inside"}
 class Unknowns:
     """Named components of the coupled product space, with the state vector and the mask of free unknowns."""
 
+    @part("spaces")
     def __init__(self, domain: Domain, physics: Physics) -> None:
         self.domain = domain
         field = physics.field

@@ -23,6 +23,7 @@ from embedding.solving.ramp import Ramp
 from embedding.solving.result import Result
 from embedding.solving.session import Session
 from embedding.solving.solution import Cost, Solution
+from embedding.timing import part
 
 
 def run(scene: Scene, listeners: Sequence[Listener] = (), kept: Kept | None = None) -> Solution:
@@ -61,7 +62,8 @@ class Run(Session):
                 result = self._stage(number)
                 if not result.ok:
                     break
-            error = estimate_error(self.problem, self.at, self.steps) if result.ok else None
+            with part("estimate"):
+                error = estimate_error(self.problem, self.at, self.steps) if result.ok else None
         except KeyboardInterrupt:
             result, error = Result.INTERRUPTED, None
         message = result.advice if result.ok else self.told(result)

@@ -24,6 +24,7 @@ from embedding.solving.field import field_on
 from embedding.solving.loads import mechanical_loads
 from embedding.solving.shell import law_on, thickness_on
 from embedding.solving.supports import held_by_supports
+from embedding.timing import part
 
 Array = npt.NDArray[np.float64]
 
@@ -50,7 +51,8 @@ class Problem:
         refuse_unmodelled(scene, plan)
         self.scene, self.plan, self.scales = scene, plan, Scales.of(scene)
         self.reduction: Reduction = plan.reduction
-        self.domain: Domain = domain or build(scene.shell.shape, plan.reduction, plan.sizes)
+        with part("meshing"):
+            self.domain: Domain = domain or build(scene.shell.shape, plan.reduction, plan.sizes)
         self.system = System(self.domain, physics_of(scene, plan, self.scales, self.domain), scene.solver.linear)
 
     @property

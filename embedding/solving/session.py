@@ -25,6 +25,7 @@ from embedding.solving.solution import CriticalPoint
 from embedding.solving.stability import countable
 from embedding.solving.staggered import Once, Staggered
 from embedding.solving.state import State
+from embedding.timing import part
 
 REST = 1e-6
 """A shell that is stretched by less counts as unstressed."""
@@ -52,7 +53,9 @@ class Session:
     def __init__(self, scene: Scene, listeners: Sequence[Listener]) -> None:
         self.scene, self.listeners = scene, listeners
         self.way: Way | None = None
-        self._work_on(Problem(scene, explain(scene)))
+        with part("plan"):
+            plan = explain(scene)
+        self._work_on(Problem(scene, plan))
         self.stage = 0
         self.remeshings, self._meshed_at = 0, 0
         self.steps: list[StepRecord] = []

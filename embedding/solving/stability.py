@@ -23,6 +23,7 @@ import numpy as np
 
 from embedding.coupling.system import System
 from embedding.geometry.spaces import Mask
+from embedding.timing import part
 
 if TYPE_CHECKING:
     from scipy import sparse
@@ -49,6 +50,7 @@ def countable(system: System) -> bool:
     return system.symmetric
 
 
+@part("stability")
 def unstable_modes(system: System) -> int | None:
     """Number of unstable modes at the last linearisation of ``system``.
 

@@ -20,6 +20,7 @@ from embedding.solving.memory import Memory
 from embedding.solving.outputs import output_fields
 from embedding.solving.places import Tracked
 from embedding.solving.problem import Problem
+from embedding.timing import part
 
 
 class State:
@@ -170,6 +171,7 @@ class State:
 
     # -- scalars
 
+    @part("scalars")
     def scalars(self) -> dict[str, float]:
         """Named numbers of the present state in SI units (plane strain: per metre of the cylinder)."""
         top, bottom = self.mean_pressures()
