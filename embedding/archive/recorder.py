@@ -139,7 +139,7 @@ def documents(problem: Problem) -> dict[str, str]:
     data: dict[str, Any] = {
         "plan": {
             "text": plan.text(),
-            "decisions": [{"topic": d.topic, "choice": d.choice, "reason": d.reason} for d in plan.decisions],
+            "decisions": [asdict(decision) for decision in plan.decisions],
         },
         "scales": asdict(problem.scales),
         "versions": versions(),

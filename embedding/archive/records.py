@@ -12,11 +12,15 @@ Floats = npt.NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ArchivedDecision:
-    """One choice of the plan, and why it was made."""
+    """One choice of the plan, and why it was made; the ``number`` behind it, what that is the ``measure`` of, and up to
+    which ``threshold`` it counted as small."""
 
     topic: str
     choice: str
     reason: str
+    number: float | None = None
+    measure: str = ""
+    threshold: float | None = None
 
 
 @dataclass(frozen=True)

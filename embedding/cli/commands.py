@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
@@ -114,8 +115,7 @@ def explain(scene: SceneFile, /, *, overrides: Overrides = (), as_json: AsJson =
 
     plan = planning.explain(stated)
     if as_json:
-        decisions = [{"topic": d.topic, "choice": d.choice, "reason": d.reason} for d in plan.decisions]
-        print_json({"scene": stated.name, "decisions": decisions})
+        print_json({"scene": stated.name, "decisions": [asdict(decision) for decision in plan.decisions]})
     else:
         print(plan.text())
 

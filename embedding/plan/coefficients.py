@@ -8,6 +8,13 @@ BENT = 0.17
 """The same of the theory with bending (docs/theory/bending.md); the tube at rest is the worst of those measured."""
 CLOSED_FACES = 1.6
 """A field on faces at the mid-surface is off by this many thicknesses over size; measured on exact thick spheres."""
+ON_FACES = 1.5
+"""The pull on the outer face of a sphere at a voltage, per reference area of its mid-surface, changes by this times T/R
+and the strain; measured, to some per cent."""
 ROBIN = 0.02
 """Of the second-order Robin condition, times (reach / radius)^5: in the dipole moment of a sphere off the centre, and a
 little more than in the charge of a disc (docs/far_field.md)."""
+RIM = 0.5
+"""What bending at the rims of a curved shell changes of its load, times (T/r)^(1/2), the length of its edge layers."""
+SHEAR = 0.6
+"""Of the deflection of a bent shell, times (T/L)^2: transverse shear, as of a cantilever (Timoshenko's beam)."""

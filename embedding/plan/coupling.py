@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from embedding.errors import Problem, SceneError
-from embedding.plan.decisions import Decision
+from embedding.plan.allowance import Allowance
+from embedding.plan.decisions import Decision, Extent
+from embedding.plan.effects import Effects
 from embedding.scene import Scene, Stage
 
 REASONS = {
@@ -16,21 +18,30 @@ REASONS = {
 }
 
 
-def choose_coupling(scene: Scene) -> Decision | None:
+def choose_coupling(scene: Scene, extent: Extent, effects: Effects, allowance: Allowance) -> Decision | None:
     """The rung of a scene with a field, None without one.
 
     Raises:
         SceneError: a stage needs the joint tangent.
     """
-    if scene.ambient is None:
+    if extent == "none":
         return None
-    stated = scene.model.coupling
-    rung = "joint" if stated == "auto" else stated
+    stated, number = scene.model.coupling, effects.coupling
+    rung, why = ("joint" if stated == "auto" else stated), "" if stated == "auto" else "pinned by the scene; "
+    if stated == "auto" and extent == "given":
+        rung = "unperturbed"
+    elif stated == "auto" and _once(scene, extent, held=effects.loading.held) and allowance.permits(number):
+        rung, why = "once", "how far the field's forces change with the shape is within the accuracy; "
     problems = list(_refused(scene, rung))
     if problems:
         raise SceneError(problems)
-    pinned = "" if stated == "auto" else "pinned by the scene; "
-    return Decision("coupling", rung, pinned + REASONS[rung])
+    measure = "effect on the answer of how the field's forces change with the shape"
+    return Decision("coupling", rung, why + REASONS[rung], number, measure, allowance.threshold)
+
+
+def _once(scene: Scene, extent: Extent, *, held: bool) -> bool:
+    """May the field be solved once? Between electrodes alone that saves nothing, nor around a shell that is held."""
+    return extent == "surroundings" and not held and not any(_refused(scene, "once"))
 
 
 def _refused(scene: Scene, rung: str) -> Iterator[Problem]:

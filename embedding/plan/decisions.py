@@ -14,11 +14,32 @@ Extent = Literal["none", "surroundings", "inside", "given"]
 
 @dataclass(frozen=True)
 class Decision:
-    """One choice of the plan, with the reason and the number it was based on."""
+    """One choice of the plan and its reason.
+
+    ``number`` is the dimensionless number behind it, ``measure`` says of what, and ``threshold`` up to where it counts
+    as small; without a number the choice is exact, or stated by the scene.
+    """
 
     topic: str
     choice: str
     reason: str
+    number: float | None = None
+    measure: str = ""
+    threshold: float | None = None
+
+    @property
+    def compared(self) -> str:
+        """The number against its threshold, as text; "" without one."""
+        if self.number is None:
+            return ""
+        if self.threshold is None:
+            return f"{self.number:.1e}"
+        return f"{self.number:.1e} {'<=' if self.number <= self.threshold else '>'} {self.threshold:.1e}"
+
+    @property
+    def told(self) -> str:
+        """The reason, and what the number is."""
+        return f"{self.reason} [{self.measure}]" if self.measure else self.reason
 
 
 @dataclass(frozen=True)
@@ -42,7 +63,9 @@ class Plan:
     extent: Extent = "none"
 
     def text(self) -> str:
-        """The decisions as aligned lines."""
-        topic = max(len(d.topic) for d in self.decisions)
-        choice = max(len(d.choice) for d in self.decisions)
-        return "\n".join(f"{d.topic:<{topic}}  {d.choice:<{choice}}  {d.reason}" for d in self.decisions)
+        """The decisions as aligned lines: topic, choice, number against threshold, reason and what the number is."""
+        rows = [(d.topic, d.choice, d.compared, d.told) for d in self.decisions]
+        widths = [max(len(row[column]) for row in rows) for column in range(3)]
+        return "\n".join(
+            "  ".join([*(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=False)), row[3]]) for row in rows
+        )

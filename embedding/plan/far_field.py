@@ -9,14 +9,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from embedding.plan.allowance import Allowance
 from embedding.plan.decisions import Decision
+from embedding.plan.effects import Effects
 from embedding.scene import Ambient, HalfSpace, Scene
 
-ROBIN_ERROR = 0.02
-"""Of the second-order Robin condition, times (reach / radius)^5: in the dipole moment of a sphere off the centre, and a
-little more than in the charge of a disc (docs/far_field.md)."""
 ENOUGH = 3.0
-"""Radius over reach from which that is below 1e-4."""
+"""Radius over reach from which the error of Robin's condition is below 1e-4."""
 FAR_RADIUS = {"robin": 4.0, "infinite": 3.0, "grounded": 4.0}
 CLEARANCE = {"robin": ENOUGH, "infinite": 1.5, "grounded": 1.5}
 """Default radius: at least that of ``FAR_RADIUS``, in which the shell has room to move and grow, and ``CLEARANCE``
@@ -33,35 +32,47 @@ class FarField:
     decisions: tuple[Decision, ...]
 
 
-def choose_far_field(scene: Scene, ambient: Ambient) -> FarField:
+def choose_far_field(scene: Scene, ambient: Ambient, effects: Effects, allowance: Allowance) -> FarField:
     """End the meshed space of a scene."""
     size, reach = scene.shell.shape.size, reach_of(scene, ambient)
     stated = ambient.radius / size if ambient.radius else None
-    kind = _kind(scene, ambient, stated, reach)
-    radius = stated or max(FAR_RADIUS[kind], CLEARANCE[kind] * reach)
+    enough = _enough(effects, allowance)
+    kind = _kind(scene, ambient, stated, enough * reach)
+    clearance = {**CLEARANCE, "robin": enough}
+    radius = stated or max(FAR_RADIUS[kind], clearance[kind] * reach)
     default = f"default, {radius:g} times the shell" if radius == FAR_RADIUS[kind] else f"all lies within {reach:.3g}"
-    where = Decision("ambient radius", f"{radius:.3g} x size", "stated by the scene" if stated else default)
-    return FarField(radius, kind == "infinite", (where, _decision(scene, kind, reach / radius)))
+    reason, limit = "stated by the scene" if stated else default, 1 / clearance[kind]
+    where = Decision("ambient radius", f"{radius:.3g} x size", reason, reach / radius, "reach over radius", limit)
+    pinned = "" if scene.model.far_field == "auto" else "pinned by the scene; "
+    end = _decision(kind, pinned, effects.far_field(reach / radius), allowance)
+    return FarField(radius, kind == "infinite", (where, end))
 
 
-def _kind(scene: Scene, ambient: Ambient, stated: float | None, reach: float) -> str:
+def _enough(effects: Effects, allowance: Allowance) -> float:
+    """Radius over reach from which Robin's condition is good enough: for the stated accuracy, or for 1e-4."""
+    if not allowance.stated:
+        return ENOUGH
+    off = effects.far_field(1.0)
+    return max(math.pow(off / allowance.threshold, 0.2), CLEARANCE["infinite"])
+
+
+def _kind(scene: Scene, ambient: Ambient, stated: float | None, needed: float) -> str:
     if ambient.outer == "grounded":
         return "grounded"
     if scene.model.far_field != "auto":
         return scene.model.far_field
-    return "robin" if (stated or FAR_RADIUS["robin"]) >= ENOUGH * reach else "infinite"
+    return "robin" if (stated or FAR_RADIUS["robin"]) >= needed else "infinite"
 
 
-def _decision(scene: Scene, kind: str, ratio: float) -> Decision:
+def _decision(kind: str, pinned: str, number: float, allowance: Allowance) -> Decision:
     if kind == "grounded":
         return Decision("far field", "grounded", "potential prescribed on the outer boundary, as the scene states")
-    pinned = "" if scene.model.far_field == "auto" else "pinned by the scene; "
-    error = f"{ROBIN_ERROR * ratio**5:.0e}"
+    measure = "effect of Robin's condition on the answer"
     if kind == "robin":
-        reason = f"exact for net charge and dipole; of higher multipoles it misses about {error}"
-        return Decision("far field", "second-order Robin", pinned + reason)
-    reason = f"to infinity, to the order of the potential; a Robin condition would miss about {error}"
-    return Decision("far field", "infinite map", pinned + reason)
+        choice, reason = "second-order Robin", "exact for net charge and dipole; misses higher multipoles"
+    else:
+        choice, reason = "infinite map", "to infinity, to the order of the potential"
+    return Decision("far field", choice, pinned + reason, number, measure, allowance.threshold)
 
 
 def reach_of(scene: Scene, ambient: Ambient) -> float:

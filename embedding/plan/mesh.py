@@ -6,7 +6,9 @@ import math
 
 from embedding.geometry.bodies import Body as MeshedBody
 from embedding.geometry.domain import MeshSizes
+from embedding.plan.allowance import Allowance
 from embedding.plan.decisions import Decision
+from embedding.plan.effects import Effects
 from embedding.plan.far_field import choose_far_field
 from embedding.plan.field import ROOM
 from embedding.scene import Ambient, Body, BoxBody, CylinderBody, HalfSpace, Scene, SphereBody
@@ -18,7 +20,9 @@ AT_RIMS = {"3d": 0.25, "axisymmetric": 0.05, "plane-strain": 0.05}
 """Elements along a rim or a conductor's sharp edge, where the field is singular, over those on the rest of it."""
 
 
-def choose_sizes(scene: Scene, reduction: str, *, meshed: bool) -> tuple[MeshSizes, tuple[Decision, ...]]:
+def choose_sizes(
+    scene: Scene, reduction: str, effects: Effects, allowance: Allowance, *, meshed: bool
+) -> tuple[MeshSizes, tuple[Decision, ...]]:
     """The mesh of ``scene`` in ``reduction``; ``meshed`` says whether the space around the shell is."""
     chosen, size = scene.discretisation, scene.shell.shape.size
     flat = reduction == "3d" and not meshed and scene.shell.shape.curvature_radius is None
@@ -26,13 +30,16 @@ def choose_sizes(scene: Scene, reduction: str, *, meshed: bool) -> tuple[MeshSiz
     shell = chosen.shell_size / size if chosen.shell_size else default
     edges = tuple((edge, length / size) for edge, length in chosen.edge_size.items())
     origin = "stated by the scene" if chosen.shell_size else f"default of {reduction}"
-    decisions = [Decision("mesh on the shell", f"{shell:.3g} x size", origin)]
+    radius = scene.shell.shape.curvature_radius
+    bend = None if radius is None else shell * size / radius
+    across = "element over radius of curvature" if bend is not None else ""
+    decisions = [Decision("mesh on the shell", f"{shell:.3g} x size", origin, bend, across)]
     if scene.ambient is None or not meshed:
         return MeshSizes(shell, shell, 0.0, chosen.grading, chosen.order, edges), tuple(decisions)
     if not edges:
         edges, decided = _at_edges(scene, reduction, shell)
         decisions += decided
-    box, radius, beyond, end = _end(scene, scene.ambient)
+    box, radius, beyond, end = _end(scene, scene.ambient, effects, allowance)
     decisions += end
     far = chosen.ambient_size / size if chosen.ambient_size else radius / 2
     origin = "stated by the scene" if chosen.ambient_size else "half the ambient's radius"
@@ -40,6 +47,14 @@ def choose_sizes(scene: Scene, reduction: str, *, meshed: bool) -> tuple[MeshSiz
     bodies = tuple(_meshed(body, size) for body in scene.ambient.bodies)
     sizes = MeshSizes(shell, far, radius, chosen.grading, chosen.order, edges, beyond=beyond, box=box, bodies=bodies)
     return sizes, tuple(decisions)
+
+
+def rim_size(scene: Scene, sizes: MeshSizes) -> float | None:
+    """Size of the elements along the rims, in shell sizes, None for a closed shell."""
+    shape = scene.shell.shape
+    if shape.closed:
+        return None
+    return min((sizes.along(edge) for edge in shape.edges), default=sizes.shell)
 
 
 def _at_edges(
@@ -60,11 +75,11 @@ def _at_edges(
 
 
 def _end(
-    scene: Scene, ambient: Ambient
+    scene: Scene, ambient: Ambient, effects: Effects, allowance: Allowance
 ) -> tuple[tuple[float, ...] | None, float, bool, tuple[Decision, ...]]:
     """The box, or the radius of the ball, in which the meshed space ends; and whether a mapped region follows."""
     if ambient.box is None:
-        end = choose_far_field(scene, ambient)
+        end = choose_far_field(scene, ambient, effects, allowance)
         return None, end.radius, end.beyond, end.decisions
     box = tuple(edge / scene.shell.shape.size for edge in ambient.box)
     shown = " x ".join(f"{edge:.3g}" for edge in box)

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from embedding.geometry.domain import MeshSizes
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.sizes import AT_POINTS
+from embedding.plan.allowance import Allowance
 from embedding.plan.coupling import choose_coupling
 from embedding.plan.decisions import Decision, Extent, Plan
+from embedding.plan.effects import Effects
 from embedding.plan.field import choose_extent, choose_interface, describe_potential
-from embedding.plan.mesh import choose_sizes
+from embedding.plan.mesh import choose_sizes, rim_size
 from embedding.plan.symmetry import choose_reduction, odd_planes
-from embedding.plan.theory import choose_locking, choose_theory
-from embedding.scene import Scene
+from embedding.plan.theory import choose_locking, choose_theory, judge_thinness
+from embedding.scene import PressureField, Scene
 
 
 def explain(scene: Scene) -> Plan:
@@ -22,29 +23,40 @@ def explain(scene: Scene) -> Plan:
     Raises:
         SceneError: the scene asks for something that no plan can give; all reasons at once.
     """
+    effects, allowance = Effects(scene), Allowance.of(scene)
     reduction, first = choose_reduction(scene)
     odd = odd_planes(scene, reduction)
-    extent, field = choose_extent(scene)
-    sizes, mesh = choose_sizes(scene, reduction.name, meshed=extent == "surroundings")
+    extent, field = choose_extent(scene, effects, allowance)
+    sizes, mesh = choose_sizes(scene, reduction.name, effects, allowance, meshed=extent == "surroundings")
     opened: tuple[str, ...] = ()
     if extent == "surroundings":
-        opened, faces = choose_interface(scene, _rim_size(scene, sizes))
-        field = (*describe_potential(scene), faces)
-    theory = choose_theory(scene)
+        opened, faces = choose_interface(scene, rim_size(scene, sizes), effects, allowance)
+        field = (*field, *describe_potential(scene), faces)
+    theory = choose_theory(scene, effects, allowance)
     bending = theory.choice == "bending"
     points = _loaded_points(scene, reduction) if bending else ()
     if points:
         sizes = replace(sizes, points=points)
         reason = "the moment under a force grows with the logarithm of the distance"
         mesh = (*mesh, Decision("mesh at point loads", f"{sizes.shell / AT_POINTS:.3g} x size", reason))
-    coupling = choose_coupling(scene)
+    coupling = choose_coupling(scene, extent, effects, allowance)
     between = (coupling,) if coupling else ()
-    rest = (_loads(scene), *_rigid(scene, reduction), *between, *field, *mesh, _order(scene, extent))
+    rest = (*_loads(scene), *_rigid(scene, reduction), *field, *between, *mesh, _order(scene, extent))
     locking = choose_locking(scene) if bending else None
-    decisions = (first, theory, *([locking] if locking else []), *rest)
+    thin = judge_thinness(scene, effects, allowance, bending=bending)
+    decisions = (first, *_closed_form(effects), theory, thin, *([locking] if locking else []), *rest)
     cured = locking is not None and locking.choice == "cured"
     rung = coupling.choice if coupling else "joint"
     return Plan(reduction, sizes, opened, odd, decisions, bending, cured, rung, extent)
+
+
+def _closed_form(effects: Effects) -> tuple[Decision, ...]:
+    """Is there nothing to solve for but a few numbers?"""
+    if not effects.loading.homogeneous:
+        return ()
+    kind = effects.loading.form
+    reason = f"a {kind} under the same load everywhere: one equation gives its stretch; solved all the same, to check"
+    return (Decision("solution", "the same everywhere", reason),)
 
 
 def _loaded_points(scene: Scene, reduction: Reduction) -> tuple[tuple[float, ...], ...]:
@@ -60,15 +72,23 @@ def _loaded_points(scene: Scene, reduction: Reduction) -> tuple[tuple[float, ...
     return tuple(dict.fromkeys(images))
 
 
-def _loads(scene: Scene) -> Decision:
-    variant = scene.loads.variant
+def _loads(scene: Scene) -> tuple[Decision, ...]:
+    """How face pressures act; what the mean of both, which squeezes the wall, is worth, and whether it varies."""
+    loads, variant = scene.loads, scene.loads.variant
+    points, modulus = scene.shell.shape.sample_points(), scene.shell.material.shear_modulus
+    both = (loads.pressure_top, loads.pressure_bottom)
+    sides = [p.values_at(points) if isinstance(p, PressureField) else [p] for p in both]
+    squeeze = max(abs(p) for side in sides for p in side) / modulus
+    measure = "squeeze: largest pressure over shear modulus"
     if variant != "embedding-aware":
-        return Decision("face pressures", variant, "pinned by the scene; the consistent form is embedding-aware")
-    varying = ", ".join(scene.loads.pressure_fields)
-    reason = f"{varying} vary: their gradient is felt" if varying else "uniform pressures"
+        reason = "pinned by the scene; the consistent form is embedding-aware"
+        return (Decision("face pressures", variant, reason, squeeze, measure),)
+    varying = ", ".join(loads.pressure_fields)
+    even = "uniform pressures: their mean has no gradient"
+    reason = f"{varying} vary: the gradient of their mean is felt" if varying else even
     if scene.shell.shape.edges:
-        reason += f"; the rim is {scene.loads.rim}"
-    return Decision("face pressures", variant, reason)
+        reason += f"; the rim is {loads.rim}, and feels the mean"
+    return (Decision("face pressures", variant, f"{reason}; kept at no cost", squeeze, measure),)
 
 
 def _rigid(scene: Scene, reduction: Reduction) -> tuple[Decision, ...]:
@@ -76,14 +96,6 @@ def _rigid(scene: Scene, reduction: Reduction) -> tuple[Decision, ...]:
         return ()
     reason = "free rigid motions are held by a uniform dead force; its size is recorded (held_force)"
     return (Decision("rigid motion", "held", reason),)
-
-
-def _rim_size(scene: Scene, sizes: MeshSizes) -> float | None:
-    """Size of the elements along the rims, None for a closed shell."""
-    shape = scene.shell.shape
-    if shape.closed:
-        return None
-    return min((sizes.along(edge) for edge in shape.edges), default=sizes.shell)
 
 
 def _order(scene: Scene, extent: Extent) -> Decision:

@@ -126,8 +126,8 @@ def _refuse(run: Archive, scene: Scene) -> None:
     loads = scene.loads
     if scene.ambient is not None and "field_energy" not in run.scalars:
         raise PostError(f"{run.path}: the energy of a field is not recorded where a field is applied or given")
-    if scene.model.coupling == "once":
-        raise PostError(f'{run.path}: with model.coupling = "once" no state is in equilibrium with its own field')
+    if any((decision.topic, decision.choice) == ("coupling", "once") for decision in run.plan.decisions):
+        raise PostError(f"{run.path}: with the field solved once no state is in equilibrium with its own field")
     if any(edge.kind == "follower" for edge in loads.edge_tractions):
         raise PostError(f"{run.path}: the work of forces that follow an edge is not recorded")
     if loads.edge_moments and "load_work" not in run.scalars:

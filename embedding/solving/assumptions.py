@@ -10,6 +10,9 @@ import math
 from collections.abc import Iterator, Sequence
 
 from embedding.errors import SceneError
+from embedding.plan.allowance import UNSTATED
+from embedding.plan.field import cramped
+from embedding.plan.mesh import rim_size
 from embedding.scene import Scene
 from embedding.solving.events import StepRecord
 from embedding.solving.neglected import Neglected
@@ -17,8 +20,6 @@ from embedding.solving.problem import Problem
 from embedding.solving.result import Result
 from embedding.solving.solution import Assumption
 
-UNSTATED = 1e-2
-"""What a neglected term may be worth where the scene states no accuracy."""
 RUNGS = {
     "bending": "model.theory=bending",
     "opened": "model.interface=opened",
@@ -66,6 +67,7 @@ def _checked(problem: Problem, neglected: Neglected) -> Iterator[Assumption]:
     yield from _of_the_shell(problem, neglected)
     if ambient is None:
         return
+    yield from _of_the_field(problem, neglected)
     if plan.coupling == "once":
         sentence = "the field's forces change with the shape by so much of the answer"
         yield _assumption(problem, "coupling", "once", neglected.coupling_gap, sentence, "joint")
@@ -73,10 +75,25 @@ def _checked(problem: Problem, neglected: Neglected) -> Iterator[Assumption]:
         return
     if not plan.opened:
         sentence = "the faces lie half a thickness from the mid-surface: that much of the answer is the field's place"
-        yield _assumption(problem, "interface", "closed", neglected.closed_faces, sentence, "opened")
+        lifts = "" if cramped(problem.scene, rim_size(problem.scene, plan.sizes)) else "opened"
+        yield _assumption(problem, "interface", "closed", neglected.closed_faces, sentence, lifts)
     if ambient.outer == "free-space" and not plan.sizes.beyond:
         sentence = "Robin's condition misses so much of the multipoles, by how far the deformed shell reaches"
         yield _assumption(problem, "far field", "second-order Robin", neglected.far_field, sentence, "infinite")
+
+
+def _of_the_field(problem: Problem, neglected: Neglected) -> Iterator[Assumption]:
+    """The field or its surroundings, where they are left out: the numbers of the planner, for the deformed shell."""
+    extent, planned = problem.plan.extent, neglected.planned
+    if extent == "none":
+        sentence = "beside the mechanical loads the field is worth so much of the answer"
+        yield _assumption(problem, "ambient", "none", neglected.field_felt, sentence, "meshed")
+    if extent == "inside" and planned.surroundings is not None:
+        sentence = "the field around the electrodes is worth so much of the answer"
+        yield _assumption(problem, "field", "between the electrodes alone", planned.surroundings, sentence, "meshed")
+    if extent == "given" and planned.perturbation is not None:
+        sentence = "what the shell does to the applied field is worth so much of the answer"
+        yield _assumption(problem, "field", "the applied field alone", planned.perturbation, sentence, "joint")
 
 
 def _of_the_shell(problem: Problem, neglected: Neglected) -> Iterator[Assumption]:

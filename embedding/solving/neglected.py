@@ -15,6 +15,9 @@ import numpy.typing as npt
 from ngsolve import CF, ET, InnerProduct, IntegrationRule, Inv, OuterProduct, Trace
 
 from embedding.plan.coefficients import BENT, CLOSED_FACES, MEMBRANE, ROBIN
+from embedding.plan.effects import Effects
+from embedding.plan.loading import STRETCHES
+from embedding.plan.response import Answer
 from embedding.scene.checks_field import axes_of, centre_of_space
 from embedding.shell.derivatives import Derivatives
 from embedding.shell.kinematics import Kinematics
@@ -22,8 +25,6 @@ from embedding.solving.events import StepRecord
 from embedding.solving.problem import Problem
 from embedding.solving.state import State
 
-STRETCHES = {"stretch": 1, "stretch_max": 1, "stretch_min": 1, "axial_stretch": 1, "volume_ratio": 3}
-"""Scalars that start at 1 and hardly move under a small load, and what power of a length they are."""
 NOTHING = 1e-12
 """Energies below this part of the elastic one are rounding."""
 
@@ -66,13 +67,27 @@ class Neglected:
         bending = self.problem.plan.bending
         return self.response * (BENT if bending else MEMBRANE) * self.slenderness**2
 
+    @cached_property
+    def planned(self) -> Effects:
+        """The planner's estimates, with the stretch and the response that were found."""
+        controlled = self.problem.system.physics.volume_controlled
+        found = Answer(self.scalars["stretch"], 0.0 if controlled else stretch_response(self.steps))
+        return Effects(self.problem.scene, found)
+
+    @property
+    def field_felt(self) -> float:
+        """What a field that was left out is worth: that between electrodes grows as the wall becomes thinner."""
+        grown = self.scalars["stretch"] ** 4 if self.planned.field.film_voltage else 1.0
+        return grown * self.planned.field_felt
+
     @property
     def closed_faces(self) -> float:
         """What the places of the faces are worth: their distance over the radius of the shell (the size of a flat one)
         and over the gaps to the bodies beside it, across which the field is as strong as they are narrow."""
         flat = self._thickness if self.problem.domain.is_flat else self.slenderness
         across = self._thickness / self._gap if self._gap > 0.0 else math.inf
-        return self.response * CLOSED_FACES * max(flat, across) * self.field_share
+        off = CLOSED_FACES * max(flat, across) + self.planned.counted_twice
+        return self.response * self.field_share * off
 
     @property
     def coupling_gap(self) -> float:
@@ -112,18 +127,24 @@ class Neglected:
 
     @cached_property
     def field_share(self) -> float:
-        """The field's part of the load: root mean squares of its tractions on both faces, against the mechanical
-        pressure difference. Other mechanical loads do not count: the share is that of the field or more."""
-        domain, tractions = self.problem.domain, self.problem.system.tractions
+        """The field's part of the load: root mean squares of its tractions, the sum of both faces and, as a stress in
+        the wall, each of them; against the mechanical pressure difference. Other mechanical loads do not count: the
+        share is that of the field or more."""
+        tractions = self.problem.system.tractions
         if not tractions:
             return 1.0
-        area = domain.shell_integral(1.0)
-        field = 0.0
         for traction in tractions.values():
             traction.refresh()
-            field += math.sqrt(domain.shell_integral(InnerProduct(traction.total, traction.total)) / area)
+        each = [traction.total for traction in tractions.values()]
+        field = self._mean_square(sum(each[1:], each[0]))
+        field += (self.slenderness or self._thickness) * sum(map(self._mean_square, each))
         mechanical = abs(self.scalars["pressure_difference"]) / self.problem.scales.stress
         return field / (field + mechanical) if field > 0.0 else 0.0
+
+    def _mean_square(self, vector: Any) -> float:
+        """Root of the mean square over the reference mid-surface."""
+        domain = self.problem.domain
+        return math.sqrt(domain.shell_integral(InnerProduct(vector, vector)) / domain.shell_integral(1.0))
 
     @property
     def strain(self) -> float:

@@ -21,6 +21,7 @@ from netgen.occ import Box, Glue, OCCGeometry, Pnt, Rectangle, WorkPlane
 from netgen.occ import Sphere as SphereSolid
 from ngsolve import CF, H1, GridFunction, IfPos, Mesh, specialcf, sqrt, x, y, z
 
+from embedding.plan import Decision
 from embedding.scene import Scales, Scene
 from embedding.solving.events import Field, Iteration, Listener, StepRecord
 
@@ -126,7 +127,7 @@ class Problem:
         self.scales = Scales.of(self.scene)
         planes = ("x", "y", "z") if reduction == "3d" else ()
         self.reduction = SimpleNamespace(name=reduction, planes=planes)
-        decision = SimpleNamespace(topic="reduction", choice=reduction, reason="the test wants it")
+        decision = Decision("reduction", reduction, "the test wants it")
         self.plan = SimpleNamespace(
             decisions=(decision,), text=lambda: f"reduction: {reduction}", odd_planes=planes[2:]
         )

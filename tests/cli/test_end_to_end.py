@@ -92,7 +92,7 @@ def test_explain(scene_file: Path, call: Call) -> None:
     assert outcome.code == 0
     assert "axisymmetric" in outcome.out
     decisions = json.loads(call("explain", scene_file, "--json").out)["decisions"]
-    assert {"topic", "choice", "reason"} == set(decisions[0])
+    assert {"topic", "choice", "reason", "number", "measure", "threshold"} == set(decisions[0])
     assert list(scene_file.parent.iterdir()) == [scene_file]
 
 

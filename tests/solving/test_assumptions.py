@@ -12,7 +12,7 @@ import pytest
 from embedding import Scene, Solution, load_scene, open_archive, solve
 from embedding.cli.output import assumption_rows
 from embedding.solving import Assumption, Result, raised
-from problems import charged_balloon, grounded_balloon, sphere_inflation
+from problems import charged_balloon, grounded_balloon, varying_pressure_sphere
 from problems.exact import sphere
 
 MU, RADIUS = 1e5, 0.02
@@ -128,8 +128,9 @@ def test_what_cannot_be_raised_is_left() -> None:
 
 
 def test_the_stated_accuracy_is_what_is_allowed(tmp_path: Path) -> None:
-    """It is in the archive as well, and in what people read."""
-    stated = sphere_inflation.scene("accuracy=1e-7", "path=[{steps=1}]", "loads.pressure_bottom=200 Pa")
+    """It is in the archive as well, and in what people read. Under a varying pressure the planner does not know the
+    tension, and leaves bending out whatever the accuracy."""
+    stated = varying_pressure_sphere.scene("accuracy=1e-7", "path=[{steps=2}]")
     file = tmp_path / "tight.vtkhdf"
     solution = solve(stated, archive=file)
     found = named(solution, "thin shell")

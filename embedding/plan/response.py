@@ -1,0 +1,67 @@
+"""How far simple shells go under a load, and how their stretch answers to a change of it, in closed form.
+
+Loads are numbers: ``pressure`` is (p_b - p_t) R / (mu T), a pressure that follows the surface, and ``pull`` the same of
+a force per reference area, as a conductor at a given voltage in free space feels it. For neo-Hooke, R. W. Ogden,
+Non-linear Elastic Deformations (1984), section 5.3:
+
+* sphere      pressure l^2 + pull = 2 (l - l^-5)
+* cylinder    pressure l^2 + pull = l^2 - l^-2, its length being held
+* flat disc   held along its rim, Hencky's membrane with Y = 3 mu: strain 0.2 (q / 3)^(2/3), q = pressure + pull
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Literal, NamedTuple
+
+Form = Literal["sphere", "cylinder", "flat"]
+LARGEST, STEP = 20.0, 1.01
+FLAT_STRAIN, FLAT_TENSION = 0.2, 0.45
+"""Of Hencky's membrane under q = p a / (Y T): mean stretch less 1, and tension at the apex over Y T, over q^(2/3). From
+his series: 0.189 and 0.461 for a Poisson ratio of 0.5, 0.233 and 0.431 for 0.3."""
+
+
+class Answer(NamedTuple):
+    """The mean stretch under a load, and |d ln(stretch) / d ln(load)|."""
+
+    stretch: float
+    response: float
+
+
+def answer(form: Form, pressure: float, pull: float) -> Answer:
+    """The first equilibrium of a shell under rising load; an infinite response where there is none: a limit point
+    comes before. Under a load that compresses it, as linear as at rest."""
+    net = pressure + pull
+    if form == "flat":
+        strain = FLAT_STRAIN * (abs(net) / 3) ** (2 / 3)
+        return Answer(1.0 + strain, 2 / 3 * strain)
+    stiffness = {"sphere": 12.0, "cylinder": 4.0}[form]
+    if net <= 0.0:
+        return Answer(1.0 + net / stiffness, abs(net) / stiffness)
+
+    def excess(stretch: float) -> float:
+        held = 2 * (stretch - stretch**-5) if form == "sphere" else stretch**2 - stretch**-2
+        return held - pressure * stretch**2 - pull
+
+    stretch = _first_root(excess)
+    if stretch is None:
+        return Answer(LARGEST, math.inf)
+    step = 1e-6 * stretch
+    slope = (excess(stretch + step) - excess(stretch - step)) / (2 * step)
+    load = pressure * stretch**2 + pull
+    return Answer(stretch, abs(load / (stretch * slope)) if slope > 0.0 else math.inf)
+
+
+def _first_root(function: Callable[[float], float]) -> float | None:
+    """Where a function that is negative at 1 first becomes positive."""
+    low = 1.0
+    while function(low * STEP) < 0.0:
+        low *= STEP
+        if low > LARGEST:
+            return None
+    high = low * STEP
+    while high - low > 1e-12 * high:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if function(middle) < 0.0 else (low, middle)
+    return 0.5 * (low + high)
