@@ -14,7 +14,5 @@ and the strain; measured, to some per cent."""
 ROBIN = 0.02
 """Of the second-order Robin condition, times (reach / radius)^5: in the dipole moment of a sphere off the centre, and a
 little more than in the charge of a disc (docs/far_field.md)."""
-RIM = 0.5
-"""What bending at the rims of a curved shell changes of its load, times (T/r)^(1/2), the length of its edge layers."""
 SHEAR = 0.6
 """Of the deflection of a bent shell, times (T/L)^2: transverse shear, as of a cantilever (Timoshenko's beam)."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from functools import cached_property
 
-from embedding.plan.coefficients import BENT, CLOSED_FACES, MEMBRANE, ON_FACES, RIM, ROBIN, SHEAR
+from embedding.plan.coefficients import BENT, CLOSED_FACES, MEMBRANE, ON_FACES, ROBIN, SHEAR
 from embedding.plan.loading import Loading
 from embedding.plan.response import Answer
 from embedding.scene import Scene
@@ -49,7 +49,7 @@ class Effects:
             return None
         if tension <= 0.0:
             return math.inf
-        return self._stiffness / 12 * (self.loading.thickness / self._half) ** 2 / tension
+        return self._stiffness / 12 * (self.loading.thickness / self.loading.half) ** 2 / tension
 
     @property
     def _stiffness(self) -> float:
@@ -57,16 +57,10 @@ class Effects:
         poisson = getattr(self.scene.shell.material, "poisson_ratio", 0.5)
         return float(2 / (1 - poisson))
 
-    @property
-    def _half(self) -> float:
-        shape = self.shape
-        if shape.kind == "disc" or shape.closed:
-            return shape.narrowest
-        return shape.narrowest / 2
-
     @cached_property
     def bending(self) -> float | None:
-        """What bending adds to the load that a membrane carries."""
+        """What bending adds to the load that a membrane carries: of a flat one with hinged ends 2 D / (N a^2), of a
+        curved one what stretching it bends, and its rims."""
         loading = self.loading
         if loading.form == "flat" and loading.transverse == 0.0:
             return 0.0
@@ -75,9 +69,8 @@ class Effects:
             return number
         if loading.form == "flat":
             return loading.response * 2 * number
-        curved = MEMBRANE * self.slenderness**2
-        rim = 0.0 if self.shape.closed and not self.shape.kinks else RIM * math.sqrt(loading.slenderness)
-        return loading.response * (curved + rim)
+        rims = 0.0 if self.shape.closed else number
+        return loading.response * (MEMBRANE * self.slenderness**2 + rims)
 
     @property
     def closed_faces(self) -> float:
@@ -98,12 +91,10 @@ class Effects:
 
     @property
     def field_felt(self) -> float:
-        """What the field is worth beside the mechanical loads; where it pushes a flat shell out of its plane, beside
-        those that do so too."""
-        loading = self.loading
-        if loading.form == "flat" and self.field.pushes_sideways:
-            return loading.pull / loading.transverse if loading.pull > 0.0 else 0.0
-        return loading.response * loading.field_share
+        """What the field is worth beside the mechanical loads; all of it where it pushes a flat shell out of its
+        plane."""
+        sideways = self.loading.form == "flat" and self.field.pushes_sideways
+        return (1.0 if sideways else self.loading.response) * self.loading.field_share
 
     @property
     def surroundings(self) -> float | None:

@@ -121,8 +121,9 @@ class Loading:
 
     @property
     def field_share(self) -> float:
-        """The field's part of the whole load."""
-        whole = self.pull + self.mechanical
+        """The field's part of the whole load; of a flat shell that it pushes out of its plane, of what does that."""
+        sideways = self.form == "flat" and self.field.pushes_sideways
+        whole = self.transverse if sideways else self.pull + self.mechanical
         return self.pull / whole if whole > 0.0 else 0.0
 
     @cached_property
@@ -148,7 +149,15 @@ class Loading:
         if self.form != "flat":
             return self.strain
         beforehand = self._stretched_beforehand
-        return self.transverse / (2 * beforehand) if beforehand > 0.0 else math.sqrt(2 * self.strain)
+        if beforehand <= 0.0:
+            return math.sqrt(2 * self.strain)
+        return self.transverse * (self.half / self.size) ** 2 / (2 * beforehand)
+
+    @property
+    def half(self) -> float:
+        """Half the narrowest extent, in m; the radius of a disc."""
+        whole = self.shape.kind == "disc" or self.shape.closed
+        return self.shape.narrowest / (1 if whole else 2)
 
     @property
     def of(self) -> tuple[str, ...]:
@@ -184,7 +193,7 @@ class Loading:
         it is not known: of open shells that are not blown up, and of flat ones that are not held all around."""
         if self.form == "flat":
             return self._flat_tension
-        if not self.shape.closed or self.others > 0.0:
+        if self.others > 0.0 or not (self.shape.closed or self._held_all_around):
             return None
         share = {"sphere": 0.5, "cylinder": 1.0}[self.form]
         outward = self.field.pull
@@ -203,11 +212,16 @@ class Loading:
         stretched = self._stretched_beforehand
         if stretched > 0.0:
             return stretched
-        edges = {support.where for support in self.scene.supports if {"x", "y", "z"} <= set(support.held)}
-        if not self.shape.edges or not set(self.shape.edges) <= edges:
+        if not self._held_all_around:
             return None
         number = self.transverse / 3
         return 3 * FLAT_TENSION * number ** (2 / 3) if number > 0.0 else None
+
+    @property
+    def _held_all_around(self) -> bool:
+        """Does every edge of the shape stay where it is?"""
+        held = {support.where for support in self.scene.supports if {"x", "y", "z"} <= set(support.held)}
+        return bool(self.shape.edges) and set(self.shape.edges) <= held
 
     @property
     def _stretched_beforehand(self) -> float:

@@ -1,0 +1,56 @@
+"""The planner's simplest shells against the exact solutions of membrane theory."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from embedding.plan.response import FLAT_STRAIN, FLAT_TENSION, answer
+from problems.exact import cylinder, sphere
+from problems.exact.charged_balloon import ChargedBalloon
+from problems.exact.hencky import hencky
+
+THIN = 1e-3
+"""T/R, which membrane theory is linear in."""
+
+
+@pytest.mark.parametrize("stretch", [1.02, 1.1, 1.3])
+def test_inflated_sphere(stretch: float) -> None:
+    found = answer("sphere", sphere.membrane_pressure(stretch, THIN) / THIN, 0.0)
+    slope = sphere.membrane_slope(stretch, 1.0)
+    assert found.stretch == pytest.approx(stretch, rel=1e-9)
+    assert found.response == pytest.approx(sphere.membrane_pressure(stretch, 1.0) / (stretch * slope), rel=1e-5)
+
+
+@pytest.mark.parametrize("stretch", [1.02, 1.5])
+def test_inflated_tube(stretch: float) -> None:
+    found = answer("cylinder", cylinder.membrane_pressure(stretch, THIN) / THIN, 0.0)
+    assert found.stretch == pytest.approx(stretch, rel=1e-9)
+
+
+@pytest.mark.parametrize("voltage", [0.3, 1.0, 2.0])
+def test_charged_sphere(voltage: float) -> None:
+    balloon = ChargedBalloon(1.0, 1.0, theory="membrane")
+    found = answer("sphere", 0.0, 0.5 * voltage**2)
+    assert found.stretch == pytest.approx(balloon.stretch(voltage), rel=1e-9)
+
+
+def test_beyond_the_limit_point() -> None:
+    """A neo-Hookean sphere bears 1.24 mu T/R."""
+    assert math.isinf(answer("sphere", 1.25, 0.0).response)
+    assert math.isfinite(answer("sphere", 1.23, 0.0).response)
+
+
+@pytest.mark.parametrize("poisson_ratio", [0.3, 0.5])
+def test_hencky(poisson_ratio: float) -> None:
+    """Held along its rim, his membrane grows in area by half the mean square of its slope."""
+    exact, x = hencky(poisson_ratio), np.linspace(0.0, 1.0, 401)
+    slope = np.gradient(exact.profile(x), x)
+    stretch, tension = np.trapezoid(slope**2 / 2 * 2 * x, x) / 2, exact.force
+    assert stretch == pytest.approx(FLAT_STRAIN, rel=0.2)
+    assert tension == pytest.approx(FLAT_TENSION, rel=0.05)
+    small = answer("flat", 3e-6, 0.0)
+    assert small.stretch - 1 == pytest.approx(FLAT_STRAIN * 1e-4, rel=1e-9)
+    assert small.response == pytest.approx(2 / 3 * (small.stretch - 1), rel=1e-12)
