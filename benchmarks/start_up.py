@@ -1,4 +1,7 @@
-"""Processes against one that only imports ngsolve: up to the first Newton step, and a whole run to 1e-3."""
+"""Processes against one that only imports ngsolve: up to the first Newton step, and a whole run to 1e-3.
+
+``python -m benchmarks.start_up [docs]``; with ``docs`` the lines go on the page of the manual.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,10 @@ from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
 
+from benchmarks.pages import tell
 from problems import charged_balloon
+
+PAGE, MARK = Path(__file__).parent.parent / "docs" / "speed.md", "<!-- start up -->"
 
 FIRST_STEP = """
 import sys
@@ -45,7 +51,7 @@ def wall(command: Sequence[str], folder: str | None = None) -> tuple[float, str]
 
 def against_import(command: Sequence[str], pairs: int = PAIRS) -> tuple[list[float], str]:
     """Its time over that of the bare import, sorted, from processes in turn so that load is that of both; and what it
-    printed last. One process goes before them all, so that nothing is compiled or read from the disk for the first time.
+    printed last. One process goes before them all, so that nothing is compiled or read for the first time.
     """
     bare = [sys.executable, "-c", "import ngsolve"]
     with TemporaryDirectory() as folder:
@@ -79,13 +85,12 @@ def report() -> Iterator[str]:
         yield f"{reduction}, to the first Newton step: {median(ratios):.2f} times the import of ngsolve alone"
     for changes in RUNS:
         ratios, printed = against_import(run_command(changes))
-        told = " ".join(("embedding run problems/charged_balloon.toml", *changes))
+        told = "embedding run problems/charged_balloon.toml" + "".join(f" --set '{change}'" for change in changes)
         yield (
-            f"{told}: {median(ratios):.2f} ({ratios[0]:.2f} to {ratios[-1]:.2f}) times the import of ngsolve alone, "
+            f"`{told}`: {median(ratios):.2f} ({ratios[0]:.2f} to {ratios[-1]:.2f}) times the import of ngsolve alone, "
             f"the whole process; error {error_of(printed, changes):.1e}"
         )
 
 
 if __name__ == "__main__":
-    for line in report():
-        print(line, flush=True)
+    tell((f"* {line}" for line in report()), PAGE if "docs" in sys.argv[1:] else None, MARK)
