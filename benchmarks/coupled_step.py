@@ -60,6 +60,7 @@ def measure(unknowns: int, linear: str = "auto") -> dict[str, Any]:
         if outcome.reason is not None and most > 1:
             raise RuntimeError(f"Newton's method ended: {outcome.reason.name}")
         linear_iterations = None if potential.iterative is None else system.iterations
+        potential.forget()
         start = time.process_time()
         potential.solve()
         poisson = time.process_time() - start

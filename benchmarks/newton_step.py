@@ -50,7 +50,11 @@ def operations(problem: Problem) -> tuple[Callable[[], object], Callable[[], obj
         potential.solve()
         system.newton_update()
 
-    return potential.solve, step
+    def poisson() -> None:
+        potential.forget()
+        potential.solve()
+
+    return poisson, step
 
 
 def measure(shell_size: float, ambient_size: float, interface: str) -> str:

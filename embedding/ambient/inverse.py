@@ -3,9 +3,10 @@ ambient is large."""
 
 from __future__ import annotations
 
+import math
 from typing import Any, Literal
 
-from ngsolve import BaseMatrix
+from ngsolve import BaseMatrix, InnerProduct
 
 from embedding.ambient.krylov import conjugate_gradients
 from embedding.ambient.patches import Cycle, VertexPatches
@@ -26,8 +27,8 @@ def iterates(linear: Linear, unknowns: int, dimension: int) -> bool:
 class Inverter:
     """Makes inverses on the ``free`` unknowns (bits) of a ``space`` for definite matrices, one after the other."""
 
-    def __init__(self, space: Any, free: Any, linear: Linear = "auto") -> None:
-        self._free = free
+    def __init__(self, space: Any, free: Any, linear: Linear = "auto", tolerance: float = TOLERANCE) -> None:
+        self._free, self._tolerance = free, tolerance
         large = iterates(linear, int(free.NumSet()), space.mesh.dim)
         self._patches = VertexPatches(space, as_mask(free)) if large else None
 
@@ -35,7 +36,20 @@ class Inverter:
         """The inverse of ``matrix``, zero on the unknowns that are not free."""
         if self._patches is None:
             return matrix.Inverse(self._free, inverse="sparsecholesky")
-        return _Iteration(self._patches.cycle(matrix))
+        return _Iteration(self._patches.cycle(matrix), self._tolerance)
+
+
+def norm(inverse: Any, residual: Any) -> float:
+    """The size of a ``residual``, the root of r . K^-1 r, from an ``inverse`` of K; where that iterates, from its
+    preconditioner."""
+    step = residual.CreateVector()
+    if isinstance(inverse, _Iteration):
+        free_part = residual.CreateVector()
+        free_part.data = inverse.cycle.free * residual
+        inverse.cycle.apply(free_part, step)
+        return math.sqrt(abs(InnerProduct(step, free_part)))
+    step.data = inverse * residual
+    return math.sqrt(abs(InnerProduct(step, residual)))
 
 
 class _Iteration(BaseMatrix):  # type: ignore[misc]
@@ -44,15 +58,15 @@ class _Iteration(BaseMatrix):  # type: ignore[misc]
     What does not converge in ``MOST_ITERATIONS`` is returned as it is: the ambient's motion judges its steps itself.
     """
 
-    def __init__(self, cycle: Cycle) -> None:
+    def __init__(self, cycle: Cycle, tolerance: float) -> None:
         super().__init__()
-        self._cycle = cycle
+        self.cycle, self._tolerance = cycle, tolerance
 
     def Height(self) -> int:
-        return int(self._cycle.matrix.height)
+        return int(self.cycle.matrix.height)
 
     def Width(self) -> int:
-        return int(self._cycle.matrix.width)
+        return int(self.cycle.matrix.width)
 
     def Shape(self) -> tuple[int, int]:
         return self.Height(), self.Width()
@@ -61,10 +75,10 @@ class _Iteration(BaseMatrix):  # type: ignore[misc]
         return False
 
     def CreateVector(self, _colvector: bool = True) -> Any:
-        return self._cycle.matrix.CreateColVector()
+        return self.cycle.matrix.CreateColVector()
 
     def Mult(self, vector: Any, out: Any) -> None:
-        conjugate_gradients(self._cycle, vector, out, TOLERANCE, MOST_ITERATIONS)
+        conjugate_gradients(self.cycle, vector, out, self._tolerance, MOST_ITERATIONS)
 
     def MultAdd(self, factor: float, vector: Any, out: Any) -> None:
         update = out.CreateVector()

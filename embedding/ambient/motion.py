@@ -31,7 +31,7 @@ from ngsolve import (
     specialcf,
 )
 
-from embedding.ambient.inverse import Inverter, Linear
+from embedding.ambient.inverse import Inverter, Linear, norm
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits, plane_mask, scalar_mask
 
@@ -44,13 +44,15 @@ MOST_RELAXATIONS, MOST_HALVINGS = 6, 6
 LOOSE, SETTLED = 0.05, 1e-3
 COMFORTABLE = 0.3
 PROBE = 1e-6
+ACCURATE = 1e-8
 NOTICEABLE = 2e-2
 OUTDATED = 0.15
 SERVES = 0.3
-"""Guard on det F. An older matrix of the extension is good enough while det F is above ``COMFORTABLE``, the face has
-moved by less than ``OUTDATED`` (shell sizes) since, and a step with it leaves at most the part ``SERVES`` of the
-residual. With a new one the interior is relaxed until a step brings less than ``LOOSE`` of its energy, or ``SETTLED``
-where it is not comfortable. A face that moved less than ``NOTICEABLE`` (mesh sizes) does not disturb the interior."""
+"""Guard on det F. ``ACCURATE`` is what an iteration leaves of a step. A matrix of the extension is good enough while
+det F is above ``COMFORTABLE``, the face has moved by less than ``OUTDATED`` (shell sizes) since, and a step with it
+leaves at most the part ``SERVES`` of the residual. With a new one the interior is relaxed until a step brings less than
+``LOOSE`` of its energy, or ``SETTLED`` where it is not comfortable. A face that moved less than ``NOTICEABLE`` (mesh
+sizes) does not disturb the interior."""
 
 
 class AmbientMotion:
@@ -81,7 +83,7 @@ class AmbientMotion:
             strain = extension_energy(Id(mesh.dim) + (Grad(trial) if y is None else Grad(y) + Grad(trial)))
             self._form += Variation(strain * domain.volume(materials, self.rule)).Compile()
         self.free = as_bits(_interior_mask(domain, interior))
-        self.linear, self._inverter = linear, Inverter(interior, self.free, linear)
+        self.linear, self._inverter = linear, Inverter(interior, self.free, linear, ACCURATE)
         self._samples = [
             (Det(gradient).Compile(), mesh.MapToAllElements(_sampling(mesh.dim, order), mesh.Materials(materials)))
             for materials, gradient, order in self._gradients(domain)
@@ -184,39 +186,48 @@ class AmbientMotion:
         return self.min_jacobian > GUARD
 
     def _settle(self, faces: Array) -> bool:
-        """Move the faces, and the interior as the tangent at hand predicts; then relax it."""
-        known = self._inverse is not None and np.abs(faces - self._assembled_at).max(initial=0.0) < OUTDATED
+        """Move the faces, and the interior as the tangent at hand predicts; relax it where that is not good enough."""
+        known = self._inverse is not None and self._is_current(faces)
         if not known:
             self._assemble(self._face())
-        if not self._predict(faces):
+        before = self._predict(faces)
+        if before is None:
             return False
-        if known:
-            predicted = self.w.vec.FV().NumPy().copy()
-            if self._relax() < SERVES and self.min_jacobian > COMFORTABLE:
-                return True
-            self.w.vec.FV().NumPy()[:] = predicted
+        if self._is_current(faces) and self._remainder() < SERVES * before and self.min_jacobian > COMFORTABLE:
+            return True
         for _ in range(MOST_RELAXATIONS):
             self._assemble(faces)
             if not self._descend():
                 break
         return self.min_jacobian > GUARD
 
+    def _is_current(self, faces: Array) -> bool:
+        return bool(np.abs(faces - self._assembled_at).max(initial=0.0) < OUTDATED)
+
     def _assemble(self, faces: Array) -> None:
         self._form.AssembleLinearization(self.w.vec)
         self._inverse = self._inverter(self._form.mat)
         self._assembled_at, self._assembled_with = faces.copy(), np.array(self.w.vec.FV().NumPy())
 
-    def _predict(self, faces: Array) -> bool:
-        """Move the faces, and the interior by - K_ww^{-1} K_wy dy; the product by a difference quotient."""
-        present, step = self._face(), self.w.vec.CreateVector()
-        rest, moved = self.w.vec.CreateVector(), self.w.vec.CreateVector()
+    def _predict(self, faces: Array) -> float | None:
+        """Move the faces, and the interior by - K_ww^{-1} (r + K_wy dy) with the residual r that it has; returns the
+        size of its step, None where elements turn over."""
+        present = self._face()
+        rest, load, step = (self.w.vec.CreateVector() for _ in range(3))
         self._form.Apply(self.w.vec, rest)
         self._place(present + PROBE * (faces - present))
-        self._form.Apply(self.w.vec, moved)
-        moved.data -= rest
-        step.data = 1 / PROBE * (self._inverse * moved)
+        self._form.Apply(self.w.vec, load)
+        load.data -= (1 - PROBE) * rest
+        load.data *= 1 / PROBE
+        step.data = self._inverse * load
         self.w.vec.data -= step
-        return self._place(faces)
+        return math.sqrt(abs(InnerProduct(step, load))) if self._place(faces) else None
+
+    def _remainder(self) -> float:
+        """What is left of the residual, in the norm of the matrix at hand."""
+        residual = self.w.vec.CreateVector()
+        self._form.Apply(self.w.vec, residual)
+        return norm(self._inverse, residual)
 
     def _descend(self) -> bool:
         """One step with the matrix at hand, halved until it lowers the energy; False if it is not worth another."""
@@ -234,13 +245,6 @@ class AmbientMotion:
     def _energy(self) -> float:
         with self._domain.in_ambient():  # NGSolve's energies know only of the mesh's own deformation
             return float(self._form.Energy(self.w.vec))
-
-    def _relax(self) -> float:
-        """One step with the matrix at hand; returns by what factor it changed the residual, in that matrix's norm."""
-        step, before = self._preconditioned_residual()
-        self.w.vec.data -= step
-        _, after = self._preconditioned_residual()
-        return after / max(before, 1e-300)
 
     def _preconditioned_residual(self) -> tuple[Any, float]:
         residual, step = self.w.vec.CreateVector(), self.w.vec.CreateVector()

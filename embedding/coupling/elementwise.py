@@ -25,19 +25,22 @@ from embedding.shell.membrane import Membrane
 Array = npt.NDArray[np.float64]
 
 
-def form_of(lagrangian: Lagrangian) -> Any:
-    """The joint form of ``lagrangian``: an :class:`ElementwiseForm` where that is possible, else NGSolve's."""
+def form_of(lagrangian: Lagrangian, *, distant: bool = True) -> Any:
+    """The joint form of ``lagrangian``: an :class:`ElementwiseForm` where that is possible, else NGSolve's; with what
+    is ``distant`` as in :meth:`Lagrangian.joint_form`."""
     bending, membrane = lagrangian.unknowns.bending, lagrangian.membrane
     possible = assembled_in_batches(lagrangian.domain, lagrangian.physics)
     if possible and isinstance(bending, SurfaceBending) and membrane is not None:
-        return ElementwiseForm(lagrangian, bending, membrane)
-    return lagrangian.joint_form()
+        return ElementwiseForm(lagrangian, bending, membrane, distant=distant)
+    return lagrangian.joint_form(distant=distant)
 
 
 class ElementwiseForm:
     """Residual and condensed matrix of ``lagrangian``, and the operators that eliminate and recover the moments."""
 
-    def __init__(self, lagrangian: Lagrangian, bending: SurfaceBending, membrane: Membrane) -> None:
+    def __init__(
+        self, lagrangian: Lagrangian, bending: SurfaceBending, membrane: Membrane, *, distant: bool
+    ) -> None:
         unknowns, physics = lagrangian.unknowns, lagrangian.physics
         self._count, self._update, self._range = unknowns.space.ndof, membrane.update, unknowns.range("u")
         self.shell = ShellElements(
@@ -49,7 +52,9 @@ class ElementwiseForm:
             cured=physics.locking_cured,
         )
         self._proximal = lagrangian.factors.proximal
-        self._free, self._tied = (lagrangian.joint_form(elastic=False, proximal=tied) for tied in (False, True))
+        self._free, self._tied = (
+            lagrangian.joint_form(elastic=False, proximal=tied, distant=distant) for tied in (False, True)
+        )
         self._store = _Store(self._free, self.shell, unknowns.condensed, unknowns.state.vec)
         self.harmonic_extension_trans = _Operator(self._count, self.shell.load)
         self.harmonic_extension = _Operator(self._count, self.shell.follow)

@@ -88,9 +88,12 @@ class FieldEnergies:
         """Field energy of one side: where the shell's motion reaches, and beyond. ``interior`` replaces the present
         motion of the interior. Without ``given`` the square of a varying applied field is left out, which is counted
         beside the shell alone, and which an interior that moves does not change as a whole."""
-        domain = self.domain
-        liquid = self.field.liquids.get(side, 1.0)
         interior = interior or self._interior(side)
+        near = self._near_energy(values, side, face, interior, given=given)
+        return [near, *self._far_energy(values, side, interior)]
+
+    def _near_energy(self, values: dict[str, Any], side: str, face: Moved, interior: Moved, *, given: bool) -> Any:
+        domain = self.domain
         moved, slope = face.value + interior.value, face.gradient + interior.gradient
         rest = self.motions[side].rest[side]
         if rest is not None:
@@ -100,13 +103,14 @@ class FieldEnergies:
         if self.field.varying is not None and given:
             strength = self.given_at(domain.reduction.position + moved)
             near = near + given_energy(domain.reduction, moved, slope, strength, self.axial)
-        terms = [liquid * near * domain.volume(domain.near(side))]
-        far = domain.far(side)
-        if far is not None:
-            slope = Grad(values["phi"])
-            energy = field_energy(domain.reduction, interior.value, interior.gradient, slope, self.axial)
-            terms.append(liquid * energy * domain.volume(far))
-        return terms
+        return self.field.liquids.get(side, 1.0) * near * domain.volume(domain.near(side))
+
+    def _far_energy(self, values: dict[str, Any], side: str, interior: Moved) -> list[Any]:
+        domain, slope, far = self.domain, Grad(values["phi"]), self.domain.far(side)
+        if far is None:
+            return []
+        energy = field_energy(domain.reduction, interior.value, interior.gradient, slope, self.axial)
+        return [self.field.liquids.get(side, 1.0) * energy * domain.volume(far)]
 
     def _interior(self, side: str) -> Moved:
         w = self.motions[side].w
@@ -125,6 +129,17 @@ class FieldEnergies:
 
     def energies(self, values: dict[str, Any]) -> list[Any]:
         """Every term of the co-energy: both sides, what lies beyond, other bodies, the inside of the shell."""
+        return self.touching_energies(values) + self.distant_energies(values)
+
+    def distant_energies(self, values: dict[str, Any]) -> list[Any]:
+        """The terms in elements that do not touch the shell: they depend on the potential alone, quadratically."""
+        if self.field.extent != "surroundings":
+            return []
+        far = [term for side in SIDES.values() for term in self._far_energy(values, side, self._interior(side))]
+        return far + self._far_energies(values) + self._solid_energies(values)
+
+    def touching_energies(self, values: dict[str, Any]) -> list[Any]:
+        """The terms in the shell and in the elements that touch it."""
         field = self.field
         if field.extent == "given":
             return [self._in_given_field(values) * self.domain.surface()]
@@ -132,9 +147,9 @@ class FieldEnergies:
             return [self._film(values) * self.domain.surface()]
         terms = []
         for name, side in SIDES.items():
-            terms += self.side_energies(values, side, self.motion_of(name, values))
+            face, interior = self.motion_of(name, values), self._interior(side)
+            terms.append(self._near_energy(values, side, face, interior, given=True))
             terms += [self.through_face(name, values)] if field.varying is not None else []
-        terms += self._far_energies(values) + self._solid_energies(values)
         if "jump" in values and (field.matter.contrast is not None or field.matter.remanence is not None):
             terms += self._inside_shell(values)
         return terms

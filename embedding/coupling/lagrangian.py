@@ -22,6 +22,7 @@ from ngsolve import CF, BilinearForm, GridFunction, InnerProduct, Integrate, Par
 from embedding.ambient.motion import AmbientMotion
 from embedding.coupling.field import FieldEnergies
 from embedding.coupling.physics import Physics
+from embedding.coupling.room import RoomyForm
 from embedding.coupling.unknowns import Unknowns
 from embedding.geometry.domain import Domain
 from embedding.shell.edges import edge_residual
@@ -87,17 +88,20 @@ class Lagrangian:
         """Kinematics of the mid-surface (or of a face) for the unknowns ``values``."""
         return Kinematics(self.domain.reduction, self.domain.normal, values[displacement], self.axial(values))
 
-    def field_energies(self, values: dict[str, Any]) -> list[Any]:
-        """Every term of the field's co-energy; empty without a field."""
-        return [] if self.field is None else self.field.energies(values)
+    def field_energies(self, values: dict[str, Any], *, distant: bool = True) -> list[Any]:
+        """Every term of the field's co-energy, or all but what is ``distant`` from the shell; empty without a field."""
+        if self.field is None:
+            return []
+        return self.field.energies(values) if distant else self.field.touching_energies(values)
 
     # -- the forms
 
-    def joint_form(self, *, elastic: bool = True, proximal: bool = True) -> BilinearForm:
+    def joint_form(self, *, elastic: bool = True, proximal: bool = True, distant: bool = True) -> Any:
         """The form of all unknowns together; w and the load factors are parameters.
 
         Without what is ``elastic``, the energies of membrane and bending are left to others, and nothing is condensed;
-        without ``proximal``, the proximal stiffness is left out.
+        without ``proximal``, the proximal stiffness is left out, and without what is ``distant`` the field that does
+        not touch the shell.
         """
         trial = self.unknowns.trial
         residuals = self._residuals()
@@ -105,11 +109,14 @@ class Lagrangian:
         form = BilinearForm(self.unknowns.space, symmetric=not residuals, condense=condense)
         for term in self._shell_energies(trial, elastic=elastic):
             form += Variation(term).Compile()
-        for term in self.field_energies(trial):
+        for term in self.field_energies(trial, distant=distant):
             form += Variation(-1 * term).Compile()
         for term in [*([self._proximal()] * proximal), *self._openings(), *residuals]:
             form += term.Compile()
-        return form
+        if distant:
+            return form
+        pairs = [(trial[name], self.unknowns.test[name]) for name in ("phi", "jump") if name in self.unknowns]
+        return RoomyForm(form, self.domain.mesh, pairs)
 
     def _shell_energies(self, values: dict[str, Any], *, elastic: bool = True) -> list[Any]:
         physics, measure = self.physics, self.measure

@@ -89,8 +89,10 @@ class LinearSolver:
         return sparse.csc_array(whole[numbers][:, numbers])
 
     @part("solution")
-    def solve(self, right_side: Any) -> Any:
+    def solve(self, right_side: Any, enough: float = 0.0) -> Any:
         """The update vector for ``right_side`` (left as it is), zero on the unknowns that are not free.
+
+        What iterates may leave the part ``enough`` of the load; otherwise a solve is as accurate as any.
 
         Raises:
             LinearSolverError: no solver was accurate; the message says by how much.
@@ -99,13 +101,13 @@ class LinearSolver:
         load.data = right_side
         if self._condensed:
             load.data += self._form.harmonic_extension_trans * load
-        update = self._kept_part(load)
+        update = self._kept_part(load, enough)
         if self._condensed:
             update.data += self._form.harmonic_extension * update
             update.data += self._form.inner_solve * load
         return update
 
-    def _kept_part(self, load: Any) -> Any:
+    def _kept_part(self, load: Any, enough: float) -> Any:
         raise NotImplementedError
 
     def _backward_stable(self, load: Any, update: Any) -> bool:
@@ -157,11 +159,11 @@ class DirectSolver(LinearSolver):
         for column, number in enumerate(numbers):
             load[:] = 0.0
             values[number] = 1.0
-            update.data = self._inverse * load if column else self._kept_part(load)
+            update.data = self._inverse * load if column else self._kept_part(load, 0.0)
             columns[:, column] = update.FV().NumPy()[numbers]
         return columns
 
-    def _kept_part(self, load: Any) -> Any:
+    def _kept_part(self, load: Any, _enough: float) -> Any:
         update = load.CreateVector()
         update[:] = 0.0
         scale = float(np.linalg.norm(load.FV().NumPy()[self.kept]))

@@ -11,6 +11,7 @@ from ngsolve import BND, GridFunction, InnerProduct
 
 from embedding.ambient.inverse import Linear
 from embedding.ambient.motion import AmbientMotion
+from embedding.coupling.distant import Distant, JointForm
 from embedding.coupling.elementwise import form_of
 from embedding.coupling.following import Following
 from embedding.coupling.iterative import JointSolver, far_unknowns
@@ -55,8 +56,11 @@ class System:
         if "axial" in self.unknowns:
             self.unknowns.field("axial").vec[0] = 1.0
         self.place_faces()  # before any form is evaluated: between faces that coincide there is no field
-        self.form = form_of(self.lagrangian)
-        self.potential = PotentialSolve(self.lagrangian, linear) if self.unknowns.potential is not None else None
+        distant = Distant(self.lagrangian) if "phi" in self.unknowns else None
+        near = form_of(self.lagrangian, distant=distant is None)
+        self.form = near if distant is None else JointForm(near, distant)
+        known = self.unknowns.potential is not None
+        self.potential = PotentialSolve(self.lagrangian, distant, linear) if known else None
         self.tractions = {face: FaceTractions(self.lagrangian, face) for face in self.unknowns.faces}
         self.following: Following | None = None
         if self.lagrangian.field is not None and domain.open and self.motions:
@@ -135,7 +139,7 @@ class System:
             free,
             symmetric=self.symmetric,
             far=far_unknowns(self.unknowns),
-            start=self.unknowns.range("phi").start,
+            potential=self.unknowns.range("phi"),
             cycle=potential.cycle,
             condensed=condensed,
         )
@@ -223,13 +227,13 @@ class System:
         """Let the next tangent be that of its state alone: what led there was no update of Newton's method."""
         self._linearised = self._displacement
 
-    def solve(self, right_side: Any) -> Any:
-        """Solve with the tangent of the last :meth:`linearise`, all of it.
+    def solve(self, right_side: Any, enough: float = 0.0) -> Any:
+        """Solve with the tangent of the last :meth:`linearise`, all of it. What iterates may leave the part ``enough``.
 
         Raises:
             LinearSolverError: the tangent is singular.
         """
-        update = self._solver.solve(right_side)
+        update = self._solver.solve(right_side, enough)
         return update if self.following is None else self.following.complete(self._solver, update)
 
     @property
@@ -276,15 +280,16 @@ class System:
         counted = [name for name in SADDLE if name in self.unknowns]
         return sum(int(kept[self.unknowns.range(name)].sum()) for name in counted) + len(self.unknowns.rigid)
 
-    def newton_update(self) -> tuple[Any, float]:
-        """Solve the linearised joint system; returns the step to add and its decrement.
+    def newton_update(self, enough: float = 0.0) -> tuple[Any, float]:
+        """Solve the linearised joint system, up to the part ``enough`` where that takes iterations; returns the step to
+        add and its decrement.
 
         Raises:
             LinearSolverError: the tangent is singular.
         """
         residual = self.residual()
         self.linearise()
-        step = self.solve(residual)
+        step = self.solve(residual, enough)
         step *= -1.0
         return step, self.decrement(residual, step)
 

@@ -30,11 +30,7 @@ def as_mask(bits: BitArray) -> Mask:
 
 def as_bits(mask: Mask) -> BitArray:
     """A boolean array as a ``BitArray``."""
-    bits = BitArray(len(mask))
-    bits.Clear()
-    for i in np.flatnonzero(mask):
-        bits.Set(int(i))
-    return bits
+    return BitArray(mask.tolist())
 
 
 def plane_mask(space: Any, axis: int) -> Mask:

@@ -25,6 +25,10 @@ LARGEST_UPDATE = 0.5
 MOST_HALVINGS = 6
 SHRINKING, STALLED = 0.7, 4
 """Newton is given up when the best of the last ``STALLED`` updates is above ``SHRINKING`` times the best before."""
+ENOUGH = 1e-3
+"""What iterative linear solvers leave of the error at first; later the square of what the last step left of the
+residual before: no more than Newton's method leaves itself (S. Eisenstat, H. Walker, SIAM J. Sci. Comput. 17 (1996)
+16, choice 2)."""
 PROXIMAL, FADING, GONE = 0.3, 0.4, 1e-4
 """Proximal stiffness of the first iteration in shear moduli, its factor from one to the next, and where it ends."""
 
@@ -96,13 +100,14 @@ class Newton:
     def _converge(self, watch: Callable[[Iteration], None], proximal: float, patient: bool) -> Outcome:
         iterations: list[Iteration] = []
         plain: list[float] = []
+        enough = ENOUGH
         if not self._follow():
             return Outcome((), Result.INVERTED_AMBIENT)
         for number in range(1, self.max_iterations + 1):
             self.system.factors.proximal.Set(proximal)
             proximal = proximal * FADING if proximal > GONE else 0.0
             try:
-                update, residual = self._update()
+                update, residual = self._update(enough)
             except LinearSolverError:
                 return Outcome(tuple(iterations), Result.LINEAR_SOLVER_FAILED)
             if update == math.inf:
@@ -113,17 +118,19 @@ class Newton:
             watch(iterations[-1])
             if max(update, residual) < self.tolerance and proximal == 0.0:
                 return Outcome(tuple(iterations), None)
+            if len(iterations) > 1:
+                enough = min(ENOUGH, (residual / iterations[-2].residual) ** 2)
             plain = plain + [update] if proximal == 0.0 else []
             if _hopeless(plain, patience=STALLED if patient else 1):
                 break
         return Outcome(tuple(iterations), Result.STEP_BELOW_MINIMUM)
 
-    def _update(self) -> tuple[float, float]:
+    def _update(self, enough: float) -> tuple[float, float]:
         start = time.perf_counter()
         if self.system.potential is not None:
-            self.system.potential.solve()
+            self.system.potential.solve(ENOUGH)
             start = self.clock.add("potential", start)
-        step, residual = self.system.newton_update()
+        step, residual = self.system.newton_update(enough)
         size = self.system.displacement_norm(step)
         if size > LARGEST_UPDATE:
             step.data = (LARGEST_UPDATE / size) * step

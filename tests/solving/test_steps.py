@@ -193,10 +193,10 @@ def test_a_linear_solver_that_fails_is_named(monkeypatch: pytest.MonkeyPatch) ->
     solve = DirectSolver.solve
     diary = Diary()
 
-    def fails(self: DirectSolver, right_side: Any) -> Any:
+    def fails(self: DirectSolver, right_side: Any, enough: float = 0.0) -> Any:
         if diary.records:
             raise LinearSolverError("the linear system could not be solved (a test)")
-        return solve(self, right_side)
+        return solve(self, right_side, enough)
 
     monkeypatch.setattr(DirectSolver, "solve", fails)
     solution = run(balloon(Stage(steps=3), solver=Solver(min_step=0.3)), [diary])
@@ -220,8 +220,8 @@ def test_wild_updates_are_cut_short() -> None:
     before = system.unknowns.state.vec.FV().NumPy().copy()
     update = system.newton_update
 
-    def wild() -> tuple[Any, float]:
-        step, size = update()
+    def wild(enough: float) -> tuple[Any, float]:
+        step, size = update(enough)
         step *= 1e3
         return step, size
 
