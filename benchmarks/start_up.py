@@ -1,12 +1,24 @@
-"""Process start to the first Newton step, against a process that only imports ngsolve."""
+"""Processes against one that only imports ngsolve: up to the first Newton step, and a whole run to 1e-3.
+
+``python -m benchmarks.start_up [docs]``; with ``docs`` the lines go on the page of the manual.
+"""
 
 from __future__ import annotations
 
+import json
+import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 from statistics import median
+from tempfile import TemporaryDirectory
+
+from benchmarks.pages import tell
+from problems import charged_balloon
+
+PAGE, MARK = Path(__file__).parent.parent / "docs" / "speed.md", "<!-- start up -->"
 
 FIRST_STEP = """
 import sys
@@ -19,21 +31,66 @@ scene = balloon(shell_size=0.3)
 scene = scene.model_copy(update={"model": {"reduction": sys.argv[1]}})
 solve(scene, throw=False, listeners=[Stop()])
 """
+COARSE = ("discretisation.order=2", "discretisation.shell_size=15 mm")
+"""The cheapest mesh of `problems/charged_balloon.toml` that was found within 1e-3: see `benchmarks.reductions`."""
+RUNS = ((), COARSE, (*COARSE, "path.0.steps=1"))
+PAIRS = 7
 
 
-def wall(code: str, *arguments: str) -> float:
-    """Median wall time of three fresh processes that run ``code``."""
-    times = []
-    for _ in range(3):
-        start = time.perf_counter()
-        subprocess.run([sys.executable, "-c", code, *arguments], check=True, capture_output=True)
-        times.append(time.perf_counter() - start)
-    return median(times)
+def environment() -> dict[str, str]:
+    """That of this process, in which Python keeps what it has compiled, as it does unless it is told not to."""
+    return {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+
+
+def wall(command: Sequence[str], folder: str | None = None) -> tuple[float, str]:
+    """Seconds from the start of ``command`` to its end, and what it printed."""
+    start = time.perf_counter()
+    done = subprocess.run(command, check=True, capture_output=True, text=True, env=environment(), cwd=folder)
+    return time.perf_counter() - start, done.stdout
+
+
+def against_import(command: Sequence[str], pairs: int = PAIRS) -> tuple[list[float], str]:
+    """Its time over that of the bare import, sorted, from processes in turn so that load is that of both; and what it
+    printed last. One process goes before them all, so that nothing is compiled or read for the first time.
+    """
+    bare = [sys.executable, "-c", "import ngsolve"]
+    with TemporaryDirectory() as folder:
+        wall(command, folder)
+        ratios, printed = [], ""
+        for _ in range(pairs):
+            seconds, _ = wall(bare, folder)
+            longer, printed = wall(command, folder)
+            ratios.append(longer / seconds)
+    return sorted(ratios), printed
+
+
+def run_command(changes: Sequence[str]) -> list[str]:
+    """`embedding run problems/charged_balloon.toml` with overrides, as a process."""
+    words = [word for change in changes for word in ("--set", change)]
+    scene = Path(charged_balloon.__file__).with_suffix(".toml")
+    return [sys.executable, "-m", "embedding.cli", "run", str(scene), "--json", *words]
+
+
+def error_of(printed: str, changes: Sequence[str]) -> float:
+    """Relative error of the stretch that a run printed, against the exact thick sphere."""
+    scalars = json.loads(printed)["scalars"]
+    exact = charged_balloon.exact(charged_balloon.scene(*changes)).stretch(scalars["voltage"])
+    return abs(scalars["stretch"] / exact - 1.0)
 
 
 def report() -> Iterator[str]:
-    """One line a reduction."""
-    bare = wall("import ngsolve")
+    """One line a reduction, and one for every run."""
     for reduction in ("axisymmetric", "3d"):
-        first = wall(FIRST_STEP, reduction)
-        yield f"{reduction}: {first / bare:.2f} times the import of ngsolve alone"
+        ratios, _ = against_import([sys.executable, "-c", FIRST_STEP, reduction], 3)
+        yield f"{reduction}, to the first Newton step: {median(ratios):.2f} times the import of ngsolve alone"
+    for changes in RUNS:
+        ratios, printed = against_import(run_command(changes))
+        told = "embedding run problems/charged_balloon.toml" + "".join(f" --set '{change}'" for change in changes)
+        yield (
+            f"`{told}`: {median(ratios):.2f} ({ratios[0]:.2f} to {ratios[-1]:.2f}) times the import of ngsolve alone, "
+            f"the whole process; error {error_of(printed, changes):.1e}"
+        )
+
+
+if __name__ == "__main__":
+    tell((f"* {line}" for line in report()), PAGE if "docs" in sys.argv[1:] else None, MARK)

@@ -52,6 +52,11 @@ def link(group: Any, name: str, item: Any) -> None:
     h5o.link(item.id, group.id, name.encode())
 
 
+def stored(group: Any, path: str) -> Any:
+    """The identifier of the dataset at ``path`` below ``group``."""
+    return h5d.open(group.id, path.encode())
+
+
 def stored_in(group: Any) -> dict[str, Any]:
     """The identifiers of the datasets in ``group``, which has no others, by name."""
     return {name.decode(): h5d.open(group.id, name) for name in sorted(group.id)}

@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 import numpy.typing as npt
 
-from embedding.archive.arrays import attributes, rows, stored_in, value_of
+from embedding.archive.arrays import attributes, rows, stored, stored_in, value_of
 from embedding.archive.axes import AXES
 from embedding.archive.layout import DIGESTS, part_of, table
 
@@ -76,8 +76,9 @@ def fields_digest(file: Any, step: int) -> Digest:
     parts: list[Any] = []
     for block in sorted(file["VTKHDF/Assembly/Scene"]):
         group = file["VTKHDF"][block]
-        points = int(group["NumberOfPoints"][part_of(group, step)])
-        begin = int(file["embedding/vtk"][table("Row", block)][step])
+        part = part_of(group, step)
+        points = int(rows(stored(group, "NumberOfPoints"), part, part + 1)[0])
+        begin = int(rows(stored(file, f"embedding/vtk/{table('Row', block)}"), step, step + 1)[0])
         for name, dataset in stored_in(group["PointData"]).items():
             parts += [f"{block}/{name}", rows(dataset, begin, begin + points)]
     return digest_of(*parts)
@@ -124,13 +125,14 @@ def _grows(place: str) -> bool:
 
 
 def _attributes(item: Any, place: str) -> Iterator[Any]:
-    for name, stored in attributes(item).items():
+    for name, attribute in attributes(item).items():
         if name not in CHANGING:
             yield f"{place}@{name}"
-            yield value_of(stored)
+            yield value_of(attribute)
 
 
 def slot_digest(slot: Any) -> Digest:
     """Of one slot of the checkpoint."""
-    _, text, numbers = slot["extent"][...].tolist()
-    return digest_of(slot["extent"][...], slot["text"][:text], slot["numbers"][:numbers])
+    extent = rows(stored(slot, "extent"), 0, 3)
+    _, text, numbers = extent.tolist()
+    return digest_of(extent, rows(stored(slot, "text"), 0, text), rows(stored(slot, "numbers"), 0, numbers))

@@ -34,7 +34,7 @@ import h5py
 import numpy as np
 import numpy.typing as npt
 
-from embedding.archive.arrays import growable, link, note, put
+from embedding.archive.arrays import growable, link, note, put, rows, stored
 from embedding.archive.lagrange import LagrangeBlock
 from embedding.archive.memory import packed
 from embedding.archive.units import scalar_unit
@@ -92,12 +92,13 @@ def table(place: str, block: str) -> str:
 def first_row(shared: Any, group: Any, block: str, step: int) -> int:
     """Where the rows of ``step`` begin in the fields of ``block``, whose ``group`` has all meshes up to it; at a chunk
     of their own, behind those of the step before."""
-    if step == 0 or not len(group["PointData"]):
+    fields = group["PointData"]
+    if step == 0 or not len(fields):
         return 0
-    chunk = int(next(iter(group["PointData"].values())).chunks[0])
+    chunk = int(stored(fields, next(iter(fields))).get_create_plist().get_chunk()[0])
     part = part_of(group, step - 1)
-    rows = -(-int(group["NumberOfPoints"][part]) // chunk) * chunk
-    return int(shared[table("Row", block)][step - 1]) + rows
+    points = int(rows(stored(group, "NumberOfPoints"), part, part + 1)[0])
+    return int(rows(stored(shared, table("Row", block)), step - 1, step)[0]) + -(-points // chunk) * chunk
 
 
 def create_record(file: Any, documents: Mapping[str, str], run: str) -> Any:
@@ -210,7 +211,7 @@ def part_tables(file: Any, block: str, steps: int) -> None:
 
 def part_of(group: Any, step: int) -> int:
     """Which of the meshes of a block's ``group`` that of a ``step`` is."""
-    return int(group["Steps/PartOffsets"][step].item())
+    return int(rows(stored(group, "Steps/PartOffsets"), step, step + 1)[0])
 
 
 def mesh_of(group: Any, step: int) -> dict[str, int]:
@@ -258,10 +259,10 @@ def create_fields(file: Any, fields: Mapping[str, Mapping[str, tuple[str, tuple[
         for name, (unit, shape) in declared.items():
             growable(data["PointData"], name, "f4", unit, shape, chunk, checked=True)
             link(offsets["PointData"], name, first)
-        rows = shared["row"]
+        row = shared["row"]
         for name, dataset in file["embedding/scalars"].items():
             link(data["FieldData"], name, dataset)
-            link(offsets["FieldData"], name, rows)
+            link(offsets["FieldData"], name, row)
 
 
 def _group(parent: Any, name: str, kind: str) -> Any:

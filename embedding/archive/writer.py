@@ -22,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from embedding.archive import layout, views
-from embedding.archive.arrays import noted, put, rows, stored_in
+from embedding.archive.arrays import noted, put, rows, stored, stored_in
 from embedding.archive.axes import label_axes
 from embedding.archive.digests import damaged_rows, digest_of, fields_digest, record_digest, rows_digests, slot_digest
 from embedding.archive.file import check_target, reading
@@ -205,23 +205,23 @@ class ArchiveWriter:
             entries |= {layout.table(place, block): value for place, value in begin.items()}
         for name, entry in entries.items():
             put(tables[name], step, np.reshape(entry, (1, *tables[name].shape[1:])))
-        put(own["steps/rows_digest"], step, list(rows_digests(own, step, step + 1)))
-        put(own["steps/fields_digest"], step, [fields_digest(file, step)])
+        put(stored(own, "steps/rows_digest"), step, list(rows_digests(own, step, step + 1)))
+        put(stored(own, "steps/fields_digest"), step, [fields_digest(file, step)])
         self._keep(own["checkpoint"][layout.SLOTS[(step + 1) % 2]], memory)
         _synchronise(file)
         for block in self.blocks:
             file["VTKHDF"][block]["Steps"].attrs.modify("NSteps", np.int64(step + 1))
-        own["committed"][...] = layout.counted(step + 1)
+        put(stored(own, "committed"), 0, layout.counted(step + 1))
         _synchronise(file)
 
     def _keep(self, slot: Any, memory: Mapping[str, Any]) -> None:
         """Write what the run goes on from into the slot that does not count yet."""
         text, numbers = packed(memory)
         data = np.frombuffer(text.encode(), "u1")
-        put(slot["text"], 0, data)
-        put(slot["numbers"], 0, numbers)
-        slot["extent"][...] = [self.committed + 1, len(data), len(numbers)]
-        slot["digest"][...] = slot_digest(slot)
+        put(stored(slot, "text"), 0, data)
+        put(stored(slot, "numbers"), 0, numbers)
+        put(stored(slot, "extent"), 0, [self.committed + 1, len(data), len(numbers)])
+        put(stored(slot, "digest"), 0, slot_digest(slot))
 
     def _rows(self, own: Any, record: StepRecord) -> None:
         """The rows of a step in the tables of steps and of Newton iterations."""
