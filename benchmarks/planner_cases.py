@@ -11,7 +11,7 @@ from embedding import Scene, load_scene, solve
 from embedding.plan.decisions import Plan
 from embedding.plan.effects import Effects
 from embedding.plan.far_field import reach_of
-from embedding.scene import EPSILON_0
+from embedding.scene.scales import EPSILON_0, MU_0
 from problems import charged_balloon, dielectric_balloon, grounded_balloon, membrane_pull_in, permeable_sphere
 from problems.exact import cylinder, sphere
 from problems.exact.roots import bracketed_root
@@ -126,9 +126,19 @@ def _charged_and_inflated(share: float) -> Scene:
     )
 
 
-def _weakly_permeable(chi: float) -> Scene:
-    changes = (f"shell.relative_permeability={1 + chi!r}", "ambient.applied_field=[0, 0, '40 kA/m']")
-    return permeable_sphere.scene(*changes, "path=[{steps=2, field=0.0}, {steps=3}]")
+def _hard_magnetic(strength: float) -> Scene:
+    """A clamped strip with a remanence along it, bent to 0.6 of its length by a field across it of ``strength``
+    remanences over mu0; the stiffness goes with the field."""
+    length, remanence = 0.02, 0.1
+    return _scene(
+        {"kind": "strip", "length": length},
+        0.05 * length,
+        shell={"material": {"law": "neo-hookean", "shear_modulus": 3e6 * strength}, "remanence": [remanence, 0.0, 0.0]},
+        supports=[{"where": "x0", "kind": "clamped"}],
+        ambient={"field": "magnetic", "applied_field": [0.0, strength * remanence / MU_0, 0.0]},
+        path=[{"steps": 5}],
+        output={"points": {"tip": [length, 0.0, 0.0]}},
+    )
 
 
 def _permeable(chi: float) -> Scene:
@@ -268,9 +278,9 @@ CASES = (
         lambda plan: plan.extent == "inside",
     ),
     Case(
-        "perturbation", "permeable sphere", "chi", (3.0, 1.0, 0.1), _weakly_permeable, "stretch_max",
+        "perturbation", "magnetic strip", "H/M", (1.0, 10.0, 100.0), _hard_magnetic, "u_tip_y",
         ("model.coupling=unperturbed",), ("model.coupling=joint",), lambda e: e.perturbation,
-        lambda plan: plan.extent != "surroundings",
+        lambda plan: plan.extent == "given",
     ),
     _coupling("charged sphere", "T/R", (0.1, 0.025, 0.00625), _charged, "stretch"),
     _coupling("sphere with a charge", "stretch", (1.2, 1.05, 1.01), _with_a_charge, "stretch"),

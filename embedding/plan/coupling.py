@@ -40,8 +40,11 @@ def choose_coupling(scene: Scene, extent: Extent, effects: Effects, allowance: A
 
 
 def _once(scene: Scene, extent: Extent, *, held: bool) -> bool:
-    """May the field be solved once? Between electrodes alone that saves nothing, nor around a shell that is held."""
-    return extent == "surroundings" and not held and not any(_refused(scene, "once"))
+    """May the field be solved once? Between electrodes alone that saves nothing, nor around a shell that is held; and
+    what follows a path by arc length, as a stage without ``steps`` does, stays as it is."""
+    left_open = [stage for stage in scene.path if stage.control == "auto" and stage.volume_ratio is None]
+    followed = any(stage.steps is None for stage in left_open)
+    return extent == "surroundings" and not held and not followed and not any(_refused(scene, "once"))
 
 
 def _refused(scene: Scene, rung: str) -> Iterator[Problem]:

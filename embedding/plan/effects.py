@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from functools import cached_property
 
-from embedding.plan.coefficients import BENT, CLOSED_FACES, MEMBRANE, ON_FACES, ROBIN, SHEAR
+from embedding.plan.coefficients import BENT, CLOSED_FACES, MEMBRANE, ON_FACES, OWN_FIELD, ROBIN, SHEAR, TWICE
 from embedding.plan.loading import Loading
 from embedding.plan.response import Answer
 from embedding.scene import Scene
@@ -17,8 +17,8 @@ from embedding.scene.checks_electrodes import one_conductor
 
 
 class Effects:
-    """The worth of every term of ``scene``, at the stretch of the simplest shell of its kind, or at one that was
-    ``found``."""
+    """The worth of every term of ``scene``, with the stretch and response of the simplest shell of its kind, or with
+    those ``found``."""
 
     def __init__(self, scene: Scene, found: Answer | None = None) -> None:
         self.scene, self.loading = scene, Loading(scene, found)
@@ -83,11 +83,11 @@ class Effects:
     @property
     def counted_twice(self) -> float:
         """Between closed faces lies no space, and the shell's is there once as the shell and once as free space: of its
-        own load, that is one part in chi."""
+        own load, that is the more the less it differs."""
         if one_conductor(self.scene) or self.field.film_voltage:
             return 0.0
-        chi = self.field.susceptibility
-        return 1 / chi if chi > 0.0 else math.inf
+        induced = self.field.induced
+        return TWICE / induced if induced > 0.0 else math.inf
 
     @property
     def field_felt(self) -> float:
@@ -105,12 +105,14 @@ class Effects:
 
     @property
     def perturbation(self) -> float | None:
-        """What the shell does to an applied field that acts on it; None where something else acts."""
+        """What the shell does to an applied field that acts on it; None where something else acts. In a uniform field
+        that is all that acts on matter without remanence."""
         field, loading = self.field, self.loading
         if not field.given or self.scene.faces.electrodes or (self.scene.ambient and self.scene.ambient.bodies):
             return None
-        own = field.remanence / (field.constant * field.given) * self.loading.thickness / loading.size
-        return loading.response * loading.field_share * (field.susceptibility + own)
+        own = OWN_FIELD * field.remanence / (field.constant * field.given) * loading.thickness / loading.size
+        alone = field.in_uniform_field and not field.remanence
+        return loading.response * loading.field_share * (1.0 if alone else field.susceptibility + own)
 
     @property
     def coupling(self) -> float:
@@ -132,5 +134,5 @@ class Effects:
     def far_field(self, ratio: float) -> float:
         """What a Robin condition misses where the shell and the bodies reach to ``ratio`` of its radius."""
         loading = self.loading
-        grown = ratio * (min(loading.answer.stretch, 2.0) if math.isfinite(loading.answer.response) else 2.0)
+        grown = ratio * min(loading.answer.stretch, 2.0)
         return loading.response * loading.field_share * ROBIN * grown**5

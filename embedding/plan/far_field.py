@@ -37,11 +37,13 @@ def choose_far_field(scene: Scene, ambient: Ambient, effects: Effects, allowance
     size, reach = scene.shell.shape.size, reach_of(scene, ambient)
     stated = ambient.radius / size if ambient.radius else None
     enough = _enough(effects, allowance)
+    if stated is None:
+        enough = max(enough, CLEARANCE["infinite"])
     kind = _kind(scene, ambient, stated, enough * reach)
-    clearance = {**CLEARANCE, "robin": enough}
+    clearance = {**CLEARANCE, "robin": min(enough, ENOUGH)}
     radius = stated or max(FAR_RADIUS[kind], clearance[kind] * reach)
     default = f"default, {radius:g} times the shell" if radius == FAR_RADIUS[kind] else f"all lies within {reach:.3g}"
-    reason, limit = "stated by the scene" if stated else default, 1 / clearance[kind]
+    reason, limit = "stated by the scene" if stated else default, 1 / max(clearance[kind], 1.0)
     where = Decision("ambient radius", f"{radius:.3g} x size", reason, reach / radius, "reach over radius", limit)
     pinned = "" if scene.model.far_field == "auto" else "pinned by the scene; "
     end = _decision(kind, pinned, effects.far_field(reach / radius), allowance)
@@ -52,8 +54,7 @@ def _enough(effects: Effects, allowance: Allowance) -> float:
     """Radius over reach from which Robin's condition is good enough: for the stated accuracy, or for 1e-4."""
     if not allowance.stated:
         return ENOUGH
-    off = effects.far_field(1.0)
-    return max(math.pow(off / allowance.threshold, 0.2), CLEARANCE["infinite"])
+    return math.pow(effects.far_field(1.0) / allowance.threshold, 0.2)
 
 
 def _kind(scene: Scene, ambient: Ambient, stated: float | None, needed: float) -> str:

@@ -5,8 +5,9 @@ What is worth a pressure on a shell (times R / T over mu), and what is a stress 
 * a conductor with the field E on it feels the pressure eps E^2 / 2: E = V / R in open space, dV / gap beside another
   conductor, Q / (eps A) with a charge, 3 E_0 in an applied field (a sphere's poles);
 * a film between electrodes the stress eps_r eps (dV / T)^2, twice that as a load number of a sphere;
-* other matter of susceptibility chi the stress eps chi H^2 / (1 + chi T / R), with the field H given around it, and a
-  magnet b_r H, and b_r^2 / mu0 (T / R) of its own field.
+* other matter of susceptibility chi the stress eps x H^2 / (1 + chi T / R), x = chi, in a field H that is given around
+  it, and x = chi^2 / (1 + chi) where H is uniform: nothing is pulled by that but by its own change of it;
+* a magnet the stress b_r H, and b_r^2 / mu0 (T / R) of its own field.
 
 Source: J. D. Jackson, Classical Electrodynamics, sections 1.5, 2.5, 5.10.
 """
@@ -19,7 +20,7 @@ from functools import cached_property
 from embedding.scene import Ambient, Scene, Shape
 from embedding.scene.bodies import Solid
 from embedding.scene.checks_electrodes import one_conductor
-from embedding.scene.checks_field import applied, axes_of
+from embedding.scene.checks_field import applied, axes_of, varying
 from embedding.scene.scales import EPSILON_0, MU_0
 
 GROUND = 4.0
@@ -205,6 +206,18 @@ class FieldLoading:
         return chi
 
     @property
+    def in_uniform_field(self) -> bool:
+        """Is the field around the shell the same everywhere, but for what the shell does to it?"""
+        ambient = self.ambient
+        return ambient is not None and not ambient.bodies and not varying(self.scene)
+
+    @property
+    def induced(self) -> float:
+        """What pulls on matter in a field, over eps H^2."""
+        chi = self.susceptibility
+        return chi**2 / (1 + chi) if self.in_uniform_field else chi
+
+    @property
     def remanence(self) -> float:
         """Size of what the shell carries: b_r in T, or a polarisation in C/m^2."""
         points = self.shape.sample_points()
@@ -218,8 +231,8 @@ class FieldLoading:
 
     def _matter(self, slenderness: float) -> float:
         """Stress of what the shell is made of, in the field around it and in its own."""
-        chi, given = self.susceptibility, max(self.given, self._beside(None))
-        induced = self.constant * chi * given**2 / (1 + chi * slenderness)
+        given = max(self.given, self._beside(None))
+        induced = self.constant * self.induced * given**2 / (1 + self.susceptibility * slenderness)
         return induced + self.remanence * given + self.remanence**2 / self.constant * slenderness
 
 

@@ -18,6 +18,8 @@ from embedding.scene.surface_fields import SurfaceField
 
 STRETCHES = {"stretch": 1, "stretch_max": 1, "stretch_min": 1, "axial_stretch": 1, "volume_ratio": 3}
 """Scalars that start at 1 and hardly move under a small load, and what power of a length they are."""
+TIGHTENED = 1 / 3
+"""How the deflection of a membrane answers to its load where it makes its own tension."""
 
 
 class Loading:
@@ -28,7 +30,8 @@ class Loading:
         self._found = found
         self.scene, self.shape = scene, scene.shell.shape
         self.size, self.thickness = self.shape.size, scene.shell.thickest
-        self.radius = self.shape.curvature_radius
+        unknown = self.shape.narrowest / 2 if self.shape.closed else None  # of a surface from a file
+        self.radius = self.shape.curvature_radius or unknown
         self.modulus = scene.shell.material.shear_modulus
         self.last: Stage = scene.path[-1]
         self.field = FieldLoading(scene)
@@ -135,11 +138,8 @@ class Loading:
 
     @property
     def strain(self) -> float:
-        """Of the mid-surface; infinite beyond a limit point."""
-        stretch, response = self.answer
-        if self.held:
-            return 0.0
-        return abs(stretch - 1.0) if math.isfinite(response) else math.inf
+        """Of the mid-surface."""
+        return 0.0 if self.held else abs(self.answer.stretch - 1.0)
 
     @property
     def deflection(self) -> float:
@@ -183,9 +183,18 @@ class Loading:
 
     @cached_property
     def response(self) -> float:
-        """Largest |d ln(answer) / d ln(load)| of the answers: that of the stretch, else 1."""
+        """Largest |d ln(answer) / d ln(load)| of the answers, or what was found of them: that of the stretch; a third
+        for displacements of a flat shell that its own deflection tightens; else 1."""
+        if self._found is not None:
+            return self._found.response
         stretched = 0.0 if self.controlled else self.answer.response
-        return max(STRETCHES[name] * stretched if name in STRETCHES else 1.0 for name in self.of)
+        tightened = self.form == "flat" and self._held_all_around and self._stretched_beforehand == 0.0
+        moved = TIGHTENED if tightened else 1.0
+        found = [
+            STRETCHES[name] * stretched if name in STRETCHES else moved if is_displacement(name) else 1.0
+            for name in self.of
+        ]
+        return max(found)
 
     @cached_property
     def tension(self) -> float | None:
@@ -256,6 +265,11 @@ class Loading:
         uniform = not shell.regions and not isinstance(shell.thickness, ThicknessField)
         pressed = not scene.loads.pressure_fields and self.others == 0.0 and not scene.supports
         return uniform and pressed and self.shape.kind in ("sphere", "infinite-cylinder") and self.field.uniform
+
+
+def is_displacement(name: str) -> bool:
+    """Is a scalar one of the displacements that every step records?"""
+    return name == "displacement" or name.startswith("u_")
 
 
 def _on_edge(where: object) -> bool:

@@ -11,12 +11,12 @@ Non-linear Elastic Deformations (1984), section 5.3:
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Literal, NamedTuple
 
 Form = Literal["sphere", "cylinder", "flat"]
 LARGEST, STEP = 20.0, 1.01
+"""How far and how finely an equilibrium is looked for; one closer to a limit point counts as beyond it."""
 FLAT_STRAIN, FLAT_TENSION = 0.2, 0.45
 """Of Hencky's membrane under q = p a / (Y T): mean stretch less 1, and tension at the apex over Y T, over q^(2/3). From
 his series: 0.189 and 0.461 for a Poisson ratio of 0.5, 0.233 and 0.431 for 0.3."""
@@ -29,9 +29,13 @@ class Answer(NamedTuple):
     response: float
 
 
+BEYOND = Answer(2.0, 1.0)
+"""Of a shell whose path goes on behind a limit point: a guess, its stretch answering like a deflection."""
+
+
 def answer(form: Form, pressure: float, pull: float) -> Answer:
-    """The first equilibrium of a shell under rising load; an infinite response where there is none: a limit point
-    comes before. Under a load that compresses it, as linear as at rest."""
+    """The first equilibrium of a shell under rising load; ``BEYOND`` where a limit point comes before. Under a load
+    that compresses it, as linear as at rest."""
     net = pressure + pull
     if form == "flat":
         strain = FLAT_STRAIN * (abs(net) / 3) ** (2 / 3)
@@ -46,11 +50,11 @@ def answer(form: Form, pressure: float, pull: float) -> Answer:
 
     stretch = _first_root(excess)
     if stretch is None:
-        return Answer(LARGEST, math.inf)
+        return BEYOND
     step = 1e-6 * stretch
     slope = (excess(stretch + step) - excess(stretch - step)) / (2 * step)
     load = pressure * stretch**2 + pull
-    return Answer(stretch, abs(load / (stretch * slope)) if slope > 0.0 else math.inf)
+    return Answer(stretch, abs(load / (stretch * slope)))
 
 
 def _first_root(function: Callable[[float], float]) -> float | None:

@@ -16,15 +16,18 @@ from ngsolve import CF, ET, InnerProduct, IntegrationRule, Inv, OuterProduct, Tr
 
 from embedding.plan.coefficients import BENT, CLOSED_FACES, MEMBRANE, ROBIN
 from embedding.plan.effects import Effects
-from embedding.plan.loading import STRETCHES
+from embedding.plan.loading import STRETCHES, TIGHTENED, is_displacement
 from embedding.plan.response import Answer
 from embedding.scene.checks_field import axes_of, centre_of_space
 from embedding.shell.derivatives import Derivatives
 from embedding.shell.kinematics import Kinematics
 from embedding.solving.events import StepRecord
 from embedding.solving.problem import Problem
+from embedding.solving.sensitivity import moved, slope
 from embedding.solving.state import State
 
+LEAST = 0.05
+"""A part of the load that is smaller is too small to measure the response to the whole load on."""
 NOTHING = 1e-12
 """Energies below this part of the elastic one are rounding."""
 
@@ -42,10 +45,25 @@ class Neglected:
 
     @cached_property
     def response(self) -> float:
-        """Largest |d ln(answer) / d ln(load)| of the answers: that of the last steps for stretches, else 1."""
-        controlled = self.problem.system.physics.volume_controlled
-        stretched = 0.0 if controlled else stretch_response(self.steps)
-        return max((STRETCHES[name] * stretched if name in STRETCHES else 1.0 for name in self.of), default=1.0)
+        """Largest |d ln(answer) / d ln(load)| of the answers, all loads together: that of the last steps for stretches
+        and displacements, else 1.
+
+        Where only the field changed, or only the mechanical loads, the answer's slope is to that part of the load.
+        """
+        with_field = self.problem.system.physics.field is not None
+        which = moved(self.steps, with_field=with_field)
+        part = {"field": self.field_share, "mechanical": 1 - self.field_share, "both": 1.0}[which]
+        return max((self._response_of(name, max(part, LEAST)) for name in self.of), default=1.0)
+
+    def _response_of(self, name: str, part: float) -> float:
+        """Of one answer, where that ``part`` of the load changed in the last steps."""
+        physics = self.problem.system.physics
+        if is_displacement(name):
+            return max(slope(self.steps, name, with_field=physics.field is not None) / part, TIGHTENED)
+        if name not in STRETCHES:
+            return 1.0
+        found = 0.0 if physics.volume_controlled else slope(self.steps, name, with_field=physics.field is not None)
+        return found / part
 
     @cached_property
     def slenderness(self) -> float:
@@ -70,9 +88,7 @@ class Neglected:
     @cached_property
     def planned(self) -> Effects:
         """The planner's estimates, with the stretch and the response that were found."""
-        controlled = self.problem.system.physics.volume_controlled
-        found = Answer(self.scalars["stretch"], 0.0 if controlled else stretch_response(self.steps))
-        return Effects(self.problem.scene, found)
+        return Effects(self.problem.scene, Answer(self.scalars["stretch"], self.response))
 
     @property
     def field_felt(self) -> float:
@@ -188,18 +204,3 @@ class Neglected:
         major, minor = self.problem.system.physics.law.principal_stresses(*self.state.principal_stretches)
         turned = InnerProduct(k.normal, k.reference_normal)
         return 0.25 * (major + minor) * self.problem.system.physics.thickness * (1 - turned * turned)
-
-
-def stretch_response(steps: Sequence[StepRecord]) -> float:
-    """|d ln(stretch) / d ln(load)| at the last of ``steps``, from a parabola through the last three of its stage.
-
-    Field forces grow with the square of the field's factor. A single step is taken to answer linearly.
-    """
-    stage = [step for step in steps if step.stage == steps[-1].stage][-3:]
-    field = "min_jacobian" in stage[-1].scalars and stage[-1].factor_field != stage[0].factor_field
-    factors = [step.factor_field**2 if field else step.factor_mechanical for step in stage]
-    stretches = [math.log(step.scalars["stretch"]) for step in stage]
-    if len(stage) < 2 or min(factors) <= 0.0 or len(set(factors)) < len(stage):
-        return abs(stretches[-1])
-    slope = np.polyfit(np.log(factors) - math.log(factors[-1]), stretches, len(stage) - 1)[-2]
-    return float(abs(slope))

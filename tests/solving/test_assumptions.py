@@ -9,8 +9,10 @@ from typing import Any
 
 import pytest
 
-from embedding import Scene, Solution, load_scene, open_archive, solve
+from benchmarks.planner_cases import CASES, Case
+from embedding import Scene, Solution, explain, load_scene, open_archive, solve
 from embedding.cli.output import assumption_rows
+from embedding.plan.allowance import SAFE
 from embedding.solving import Assumption, Result, raised
 from problems import charged_balloon, grounded_balloon, varying_pressure_sphere
 from problems.exact import sphere
@@ -103,6 +105,52 @@ def test_a_compressed_membrane_is_raised_to_a_shell_that_bends() -> None:
     # What is pinned stays.
     pinned = solve(scene.with_overrides(["model.theory=membrane"]), throw=False)
     assert raised(pinned.scene, pinned.assumptions) == pinned.scene
+
+
+TOPICS = {
+    "thin shell": "thin shell", "bending": "shell theory", "faces": "interface", "field": "ambient",
+    "surroundings": "field", "perturbation": "field", "coupling": "coupling", "far field": "far field",
+}  # fmt: skip
+LEFT_OUT = [case for case in CASES if case.term != "thin shell"]
+
+
+def without(case: Case, value: float) -> Solution:
+    """A solve for an accuracy that is coarse enough for the plan to leave the term out, but not the whole field."""
+    number = case.estimated(value)
+    assert number is not None
+    kept = ("model.surroundings=meshed",) if case.term in ("faces", "coupling") else ()
+    return solve(case.scene(value, 1.1 * number / SAFE).with_overrides(kept))
+
+
+@pytest.mark.parametrize("case", LEFT_OUT, ids=[f"{case.term}: {case.name}" for case in LEFT_OUT])
+def test_whatever_was_left_out_can_be_raised(case: Case) -> None:
+    """Every term that a plan leaves out is among the assumptions, and a violated one comes back."""
+    solution = without(case, case.values[2])
+    assert case.leaves_out(solution.plan)
+    found = named(solution, TOPICS[case.term])
+    assert found.rung
+    better = raised(solution.scene, [replace(found, held=False)])
+    assert not case.leaves_out(explain(better))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", LEFT_OUT, ids=[f"{case.term}: {case.name}" for case in LEFT_OUT])
+def test_numbers_on_the_solution(case: Case) -> None:
+    """Against the truth, found by solving both ways: at least a third of it, and not wild."""
+    true, found = case.true(case.values[1]), named(without(case, case.values[1]), TOPICS[case.term])
+    assert true / 3 < found.number < 10 * true
+
+
+def test_raising_comes_to_an_end() -> None:
+    """Bending first, then nothing in this package is better than a shell."""
+    scene = varying_pressure_sphere.scene("accuracy=1e-6", "path=[{steps=2}]")
+    solution = solve(scene)
+    assert not named(solution, "shell theory").held
+    again = solve(raised(scene, solution.assumptions))
+    assert again.plan.bending
+    assert named(again, "thin shell").number < named(solution, "thin shell").number
+    assert not named(again, "thin shell").held
+    assert raised(again.scene, again.assumptions) == again.scene
 
 
 def test_what_cannot_be_raised_is_left() -> None:
