@@ -70,6 +70,11 @@ class FarField:
             terms.append(weight * mixed * domain.surface("outer"))
         return terms
 
+    def decaying(self, potential: Any, factor: Any = 1.0) -> Any:
+        """phi' on the outer boundary, of the total ``potential``."""
+        applied = factor * CF(self.applied)
+        return potential - factor * self.level + InnerProduct(applied, _place(self.domain))
+
 
 def far_field(domain: Domain, applied: tuple[float, ...], *, infinite: bool, level: float = 0.0) -> FarField:
     """The far field of ``domain``; ``infinite`` needs its mapped region ``beyond``."""

@@ -11,6 +11,7 @@ from ngsolve import CF, VOL, Cof, Det, Grad, InnerProduct, Parameter
 
 from embedding.ambient.energy import field_energy
 from embedding.ambient.far import far_field
+from embedding.ambient.harmonics import missed_by_robin
 from embedding.ambient.motion import AmbientMotion
 from embedding.ambient.reduced import Face, face_energy, given_energy
 from embedding.ambient.transmission import given_field_energy, shell_field_energy, tapered_field_energy
@@ -177,6 +178,11 @@ class FieldEnergies:
             return []
         weight = self.axial * field.liquids.get("outside", 1.0)
         return self._far.terms(values["phi"], self._factor, weight)
+
+    def missed_far_away(self, values: dict[str, Any], reach: float) -> float:
+        """What Robin's condition misses of the potential in ``values``, relative; the sources lie within ``reach``."""
+        decaying = self._far.decaying(values["phi"], self._factor)
+        return missed_by_robin(self.domain, decaying, reach, odd=self.field.odd_planes)
 
     def _solid_energies(self, values: dict[str, Any]) -> list[Any]:
         """Bodies with a field inside, at rest; a magnet's strength follows the field's factor."""

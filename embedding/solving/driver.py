@@ -10,11 +10,14 @@ from typing import Any
 import numpy as np
 from ngsolve import SetNumThreads, TaskManager
 
+from embedding.errors import Problem as SceneProblem
+from embedding.errors import SceneError
 from embedding.scene import Scene, Stage
+from embedding.scene.messages import nearest
 from embedding.solving.arc import ArcStage
 from embedding.solving.assumptions import check_assumptions
 from embedding.solving.continuation import Condition, at_parameter
-from embedding.solving.estimate import estimate_error
+from embedding.solving.estimate import default_quantity, estimate_errors
 from embedding.solving.events import Listener
 from embedding.solving.memory import Kept
 from embedding.solving.path import DEFAULT_STEPS, Target, followed, stage_target
@@ -22,7 +25,7 @@ from embedding.solving.places import displacement_row
 from embedding.solving.ramp import Ramp
 from embedding.solving.result import Result
 from embedding.solving.session import Session
-from embedding.solving.solution import Cost, Solution
+from embedding.solving.solution import Cost, ErrorEstimate, Solution
 from embedding.timing import part
 
 
@@ -48,6 +51,7 @@ class Run(Session):
         super().__init__(scene, listeners)
         for number, stage in enumerate(scene.path):
             self._goals(number, stage)  # refuses what cannot be met before anything is solved
+        self._refuse_unknown_scalars()
         if kept is not None:
             self.recall(kept)
         self._way = kept.memory["way"] if kept is not None else None
@@ -56,27 +60,53 @@ class Run(Session):
         """Walk the path to its end or to the first step that cannot be taken."""
         for listener in self.listeners:
             listener.started(self.problem)
-        result, error = Result.CONVERGED, None
+        result, errors = Result.CONVERGED, dict[str, ErrorEstimate]()
         try:
             for number in range(self.stage, len(self.scene.path)):
                 result = self._stage(number)
                 if not result.ok:
                     break
             with part("estimate"):
-                error = estimate_error(self.problem, self.at, self.steps) if result.ok else None
+                errors = estimate_errors(self.problem, self.at, self.steps) if result.ok else {}
         except KeyboardInterrupt:
-            result, error = Result.INTERRUPTED, None
+            result, errors = Result.INTERRUPTED, {}
         message = result.advice if result.ok else self.told(result)
-        answers = self.scene.accuracy.of if self.scene.accuracy is not None else ()
-        answers = answers or ((error.quantity,) if error is not None else ())
+        error = self._worst(errors)
+        answers = self._asked or ((error.quantity,) if error is not None else ())
         assumptions = check_assumptions(self.problem, self.steps, result, answers)
         solution = Solution(
-            self.scene, self.problem.plan, self.problem.scales, result, message, tuple(self.steps), error, self._cost(),
-            critical_points=tuple(self.critical), iterations=self.iterations, start=self.start, assumptions=assumptions,
+            self.scene, self.problem.plan, self.problem.scales, result, message, tuple(self.steps), error,
+            self._cost(), errors=errors, critical_points=tuple(self.critical), iterations=self.iterations,
+            start=self.start, assumptions=assumptions,
         )  # fmt: skip
         for listener in self.listeners:
             listener.finished(solution)
         return solution
+
+    @property
+    def _asked(self) -> tuple[str, ...]:
+        """The scalars whose accuracy the scene states."""
+        return self.scene.accuracy.of if self.scene.accuracy is not None else ()
+
+    def _worst(self, errors: dict[str, ErrorEstimate]) -> ErrorEstimate | None:
+        """The largest error of the scalars that count as the answer."""
+        if not errors:
+            return None
+        names = self._asked or (default_quantity(self.problem, self.steps[-1].scalars, self.at),)
+        found = [errors[name] for name in names if name in errors]
+        return max(found, key=lambda error: error.value, default=None)
+
+    def _refuse_unknown_scalars(self) -> None:
+        """Refuse an accuracy of scalars that no step of this scene has."""
+        there = self.state.scalars() if self._asked else {}
+        problems = []
+        for number, name in enumerate(self._asked):
+            if name not in there:
+                guess = nearest(name, there)
+                hint = f'did you mean "{guess}"?' if guess else f"this scene has {', '.join(there)}"
+                problems.append(SceneProblem(f"accuracy.of.{number}", f"{name} is not allowed: {hint}"))
+        if problems:
+            raise SceneError(problems)
 
     def _stage(self, number: int) -> Result:
         self.stage, stage, memory = number, self.scene.path[number], self._way

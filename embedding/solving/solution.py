@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
@@ -13,6 +13,10 @@ from embedding.plan.decisions import Plan
 from embedding.scene import Scales, Scene
 from embedding.solving.events import StepRecord
 from embedding.solving.result import Result
+
+
+DISCRETE = ("shell", "geometry", "ambient", "ambient and coupling")
+"""Sources of errors that finer meshes and higher orders reduce."""
 
 
 @dataclass(frozen=True)
@@ -26,6 +30,11 @@ class ErrorEstimate:
     quantity: str
     method: str
     parts: dict[str, float]
+
+    @property
+    def discretisation(self) -> float:
+        """The part of mesh and orders, of shell, geometry and ambient."""
+        return sum(self.parts.get(source, 0.0) for source in DISCRETE)
 
 
 @dataclass(frozen=True)
@@ -80,6 +89,9 @@ class CriticalPoint:
 class Solution:
     """The outcome of a solve, complete or not; ``solution["stretch"]`` is a scalar's history in SI units.
 
+    ``errors`` has the estimated error of every scalar of the last step, ``error`` that of the answer: the largest of
+    those that ``scene.accuracy`` names, or one that fits the scene.
+
     ``iterations`` counts every Newton step, those of failed attempts and of looking for critical points included.
     ``start`` is "rest", "neighbour" where the state of another run was started from, or "rest: ..." with the reason why
     it could not be. ``assumptions`` are what the plan left out, checked on the last step.
@@ -94,6 +106,7 @@ class Solution:
     error: ErrorEstimate | None
     cost: Cost
     archive: Path | None = None
+    errors: dict[str, ErrorEstimate] = field(default_factory=dict)
     critical_points: tuple[CriticalPoint, ...] = ()
     iterations: int = 0
     start: str = "rest"

@@ -90,11 +90,27 @@ class State:
     def mean_pressures(self) -> tuple[float, float]:
         """Means of p_t and p_b over the reference mid-surface, in Pa."""
         area = self._domain.shell_integral(1.0)
-        means = [self._domain.shell_integral(CF(p)) / area for p in self._mechanical_pressures()]
-        for i, traction in enumerate(self._system.tractions.values()):
+        mechanical = [self._domain.shell_integral(CF(p)) / area for p in self._mechanical_pressures()]
+        top, bottom = self.field_pressures()
+        return self._scales.stress * mechanical[0] + top, self._scales.stress * mechanical[1] + bottom
+
+    def field_pressures(self) -> tuple[float, float]:
+        """What the field has in them, in Pa."""
+        means = {"t": 0.0, "b": 0.0}
+        for face, traction in self._system.tractions.items():
             traction.refresh()
-            means[i] += traction.mean_pressure()
-        return self._scales.stress * means[0], self._scales.stress * means[1]
+            means[face] = self._scales.stress * traction.mean_pressure()
+        return means["t"], means["b"]
+
+    def field_tractions(self) -> tuple[float, float]:
+        """Root mean squares of the field's tractions on the two faces, in Pa; tangential ones included."""
+        sizes = {"t": 0.0, "b": 0.0}
+        for face, traction in self._system.tractions.items():
+            traction.refresh()
+            pressure, along = traction.pressure(), traction.tangential()
+            squared = self._domain.shell_integral(pressure * pressure + InnerProduct(along, along))
+            sizes[face] = self._scales.stress * math.sqrt(squared / self._domain.shell_integral(1.0))
+        return sizes["t"], sizes["b"]
 
     # -- what goes into archives and pictures
 

@@ -106,7 +106,7 @@ def test_the_error_is_estimated_on_a_new_mesh_as_well(order: int, monkeypatch: p
     found = permeable_sphere.run(path, f"discretisation.order={order}")
     assert found["remeshings"][-1] >= 2 and found.error is not None
     true = abs(found["stretch"][-1] / fine["stretch"][-1] - 1.0)
-    assert 0.5 < found.error.parts["discretisation"] / true < 2.0
+    assert 0.5 < found.errors["stretch"].discretisation / true < 2.0
 
 
 def test_a_mesh_that_the_scene_forbids_is_not_taken() -> None:

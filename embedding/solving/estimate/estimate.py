@@ -1,0 +1,246 @@
+"""The relative error of every scalar a solve ends with: a sum over sources, each found in its own way.
+
+==============  =====================================================================================================
+source          how it is found
+==============  =====================================================================================================
+shell           what one more order changes, from the residual of the shell's own equations (:mod:`.enriched`)
+geometry        the same, from curving the elements by one order more (where it can be told apart, else in "shell")
+ambient         the rest of that change; at rims and sharp edges of conductors its limit over all orders
+thickness       what membrane theory misses of a thick wall, times the response to loads (:mod:`.theory`)
+shear           what bending without transverse shear leaves out, 0.6 (T/L)^2 of the deflection of a cantilever
+faces           where a field acts: second order in t/r on opened faces (:mod:`.theory`), 1.6 t/r on closed ones
+far field       what Robin's condition makes of the harmonics it is not exact for (ambient/harmonics)
+solver          the last update of Newton's method, or of the turns of field and shell
+==============  =====================================================================================================
+
+A relative error of the loads becomes one of a scalar through its response d (scalar) / d ln (load), which one more
+solve with the tangent at hand gives for all scalars at once. The end of a path does not depend on the steps that led
+there: there is no part for them, but for what adds up along a path, whose balances state their own.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+from embedding.geometry.outline import SHARP_ANGLE
+from embedding.geometry.remeshing import one_order_more
+from embedding.plan.far_field import reach_of
+from embedding.solving.estimate.enriched import Changes, Enriched
+from embedding.solving.estimate.theory import Wall, wall_of
+from embedding.solving.events import StepRecord
+from embedding.solving.path import Target
+from embedding.solving.problem import Problem
+from embedding.solving.solution import DISCRETE, ErrorEstimate
+from embedding.solving.state import State
+
+Scalars = dict[str, float]
+CLOSED_FACES, SHEAR, BENT = 1.6, 0.6, 0.1
+STILL = 1e-12
+"""Displacement over size of a shell that does not move."""
+COUNTED = ("unstable_modes", "remeshings", "min_jacobian", "coupling_iterations", "contraction", "coupling_gap",
+           "held_force")  # fmt: skip
+"""Scalars that describe the run and not the answer."""
+OF_FIELD = ("charge", "flux", "field_energy", "force", "torque", "pressure_top", "pressure_bottom")
+CANCELLING = 3.0
+CHARGED, STEEPEST = 2.0, 10.0
+THROUGH = 0.15
+"""Of the tractions on opened faces of permeable and dielectric shells times (t/r)^2: a bound of the root mean squares
+of what was measured on exact spheres of three regions, from mu_r = 2 to 1e6 (tests/problems/test_permeable_sphere).
+Tubes are exact (test_tubes_in_a_field)."""
+
+
+def estimate_errors(problem: Problem, target: Target, steps: Sequence[StepRecord]) -> dict[str, ErrorEstimate]:
+    """Error estimates by scalar at the present, converged state, the last of ``steps``."""
+    scalars = {name: value for name, value in steps[-1].scalars.items() if name not in COUNTED and value != 0.0}
+    with one_order_more(problem.domain) as domain:
+        richer = Enriched(problem, domain)
+        changes = richer.improve(target, scalars, _straight(problem))
+        responses = {} if changes is None or richer.held else richer.responses(target)
+    sources = _discretisation(problem, changes, scalars)
+    sources |= _theory(problem, scalars, responses) | _field(problem, scalars, responses, State(problem))
+    sources["solver"] = {name: _last_update(problem, steps[-1]) for name in scalars if _moves(name)}
+    method = _method(problem, changes)
+    whole = {} if changes is None else {n: _beyond(problem) * change for n, change in changes.whole.items()}
+    return {name: _sum(name, value, sources, whole, method) for name, value in scalars.items()}
+
+
+def default_quantity(problem: Problem, scalars: Scalars, target: Target) -> str:
+    """The scalar that counts as the answer unless the scene says otherwise: the pressure difference where the path
+    controls the volume, the field's energy or the pull around a shell that is held, else the displacement."""
+    if target.volume is not None:
+        return "pressure_difference"
+    held = problem.system.potential is not None and not problem.system.unknowns.trace.free.any()
+    if held:
+        return "field_energy" if "field_energy" in scalars else "pressure_top"
+    return "displacement" if scalars["displacement"] > STILL * problem.scales.length else "stretch"
+
+
+def _straight(problem: Problem) -> Callable[[Callable[[], None]], None]:
+    """A function that calls another while the elements have the present geometry."""
+
+    def call(function: Callable[[], None]) -> None:
+        mesh, order = problem.mesh, problem.domain.sizes.order
+        mesh.Curve(order)
+        try:
+            function()
+        finally:
+            mesh.Curve(order + 1)
+
+    def now(function: Callable[[], None]) -> None:
+        function()
+
+    return now if problem.domain.base is not None else call  # a new mesh has its geometry from two deformations
+
+
+def _sum(name: str, value: float, sources: dict[str, Scalars], whole: Scalars, method: str) -> ErrorEstimate:
+    parts = {source: abs(errors[name] / value) for source, errors in sources.items() if name in errors}
+    if name in whole:
+        parts |= _not_beyond(parts, abs(whole[name] / value))
+    return ErrorEstimate(sum(parts.values()), name, method, parts)
+
+
+def _not_beyond(parts: Scalars, whole: float) -> Scalars:
+    """Parts of the discretisation that cancel, as those of geometry and ambient on coarse meshes, scaled down to
+    ``CANCELLING`` times what they change together."""
+    found = {source: parts[source] for source in DISCRETE if source in parts}
+    together, most = sum(found.values()), CANCELLING * whole
+    return {source: part * most / together for source, part in found.items()} if together > most else {}
+
+
+def _method(problem: Problem, changes: Changes | None) -> str:
+    order, left_out = problem.domain.sizes.order, []
+    if changes is None:
+        left_out.append("more than that the mesh does not resolve this state")
+    if problem.domain.rims and not problem.plan.bending and not problem.domain.is_flat:
+        left_out.append("bending at held edges")
+    if problem.plan.extent == "given":
+        left_out.append("the shell's own field")
+    method = f"order {order} against {order + 1}, and theory"
+    return method + "".join(f"; {one} is NOT included" for one in left_out)
+
+
+# -- discretisation
+
+
+def _discretisation(problem: Problem, changes: Changes | None, scalars: Scalars) -> dict[str, Scalars]:
+    if changes is None:  # the mesh does not resolve the state: nothing of it is certain
+        return {"shell": dict(scalars)}
+    if problem.system.potential is None:
+        found = {"shell": changes.shell, "geometry": changes.geometry}
+    else:
+        limit = _beyond(problem)
+        ambient = {name: limit * change for name, change in changes.ambient.items()}
+        # From a rung below the joint one, Newton's steps find what the coupling left out as well.
+        name = "ambient and coupling" if problem.plan.coupling == "once" else "ambient"
+        found = {"shell": changes.shell, "geometry": changes.geometry, name: ambient}
+    return {source: errors for source, errors in found.items() if any(errors.values())}
+
+
+def _beyond(problem: Problem) -> float:
+    """All orders' change over that of the next one. Around an edge at which the normal of a conductor turns by an
+    angle, pi at a rim, the potential goes like r^a, a = pi / (pi + angle), and the error falls as order^(-4 a): the
+    change from one order to the next is a known part of it. Dielectric and permeable edges are less singular."""
+    order = problem.domain.sizes.potential_order
+    angle = math.pi if problem.domain.open else problem.domain.facets.sharpest(problem.domain.normal)
+    if angle <= SHARP_ANGLE or problem.plan.extent != "surroundings":
+        return 1.0
+    return float(1.0 / (1.0 - (order / (order + 1)) ** (4 * math.pi / (math.pi + angle))))
+
+
+# -- theory
+
+
+def _bent(problem: Problem, scalars: Scalars) -> bool:
+    """Does the shell move by bending more than by stretching?"""
+    moved = scalars.get("displacement", 0.0) / problem.scales.length
+    return problem.plan.bending and abs(scalars["stretch"] - 1.0) < BENT * moved
+
+
+def _moves(name: str) -> bool:
+    """Is it where the shell is?"""
+    return name in ("displacement", "stretch", "axial_stretch", "volume_ratio") or name.startswith("u_")
+
+
+def _theory(problem: Problem, scalars: Scalars, responses: dict[str, Scalars]) -> dict[str, Scalars]:
+    if _bent(problem, scalars):
+        shear = SHEAR * (problem.scene.shell.thickest / problem.scales.length) ** 2
+        return {"shear": {name: shear * value for name, value in scalars.items() if _moves(name)}}
+    wall = wall_of(problem, scalars)
+    if wall is None:
+        return {}
+    elastic = wall.elastic(problem.system.physics.law)
+    missed = {name: -elastic * response for name, response in responses.get("all", {}).items() if name in scalars}
+    if "pressure" in problem.system.unknowns and "pressure_difference" in scalars:
+        missed["pressure_difference"] = elastic * scalars["pressure_difference"]
+    field = problem.system.physics.field
+    if field is not None and "voltage_jump" in scalars:
+        pull = responses.get("field", {})
+        missed = {name: value + wall.electric * pull.get(name, 0.0) for name, value in missed.items()}
+    return {"thickness": missed}
+
+
+# -- field
+
+
+def _field(problem: Problem, scalars: Scalars, responses: dict[str, Scalars], state: State) -> dict[str, Scalars]:
+    ambient, plan = problem.scene.ambient, problem.plan
+    if ambient is None or plan.extent != "surroundings":
+        return {}
+    found, pull = {}, responses.get("field", {})
+    wall = wall_of(problem, scalars)
+    if wall is not None:
+        found["faces"] = _faces(problem, wall, scalars, responses, state)
+    if ambient.outer != "grounded" and not plan.sizes.beyond and plan.sizes.box is None:
+        reach = reach_of(problem.scene, ambient) * max(1.0, scalars.get("stretch_max", 1.0))
+        off = _missed_far_away(problem, reach)
+        found["far field"] = {name: off * (pull.get(name, 0.0) + _own(name, value)) for name, value in scalars.items()}
+    return found
+
+
+def _faces(
+    problem: Problem, wall: Wall, scalars: Scalars, responses: dict[str, Scalars], state: State
+) -> Scalars:
+    pulled, pull = state.field_pressures(), responses.get("field", {})
+    steep = _steepness(sum(pulled), scalars, responses)
+    opened = bool(problem.plan.opened)
+    off, own = (wall.face(steep), wall.place(steep)) if opened else (2 * [CLOSED_FACES * wall.thin])
+    borne = abs(problem.scales.stress * wall.pressure(problem.system.physics.law))
+    off *= min(1.0, sum(map(abs, pulled)) / borne) if borne > 0.0 else 1.0
+    missed = {name: off * pull.get(name, 0.0) + own * _own(name, value) for name, value in scalars.items()}
+    field = problem.system.physics.field
+    if opened and not wall.tube and field is not None and field.matter.contrast is not None:
+        through = THROUGH * wall.thin**2
+        sizes = dict(zip(("pressure_top", "pressure_bottom"), state.field_tractions(), strict=True))
+        for name, value in scalars.items():
+            of_it = sizes.get(name, abs(_own(name, value)))
+            missed[name] = abs(missed[name]) + through * (of_it + abs(pull.get(name, 0.0)))
+    return missed
+
+
+def _missed_far_away(problem: Problem, reach: float) -> float:
+    field, unknowns = problem.system.lagrangian.field, problem.system.unknowns
+    if field is None or "phi" not in unknowns:
+        return 0.0
+    return field.missed_far_away({"phi": unknowns.field("phi")}, reach)
+
+
+def _steepness(pull: float, scalars: Scalars, responses: dict[str, Scalars]) -> float:
+    """-d ln (pull of the field) / d ln (radius) as the shell grows; 2 where it cannot be told, as of a charged sphere
+    at a voltage."""
+    grown = responses.get("all", {})
+    if pull == 0.0 or not grown.get("stretch"):
+        return CHARGED
+    both = grown["pressure_top"] + grown["pressure_bottom"]
+    slope = -(both / pull) / (grown["stretch"] / scalars["stretch"])
+    return min(max(slope, -STEEPEST), STEEPEST)
+
+
+def _own(name: str, value: float) -> float:
+    """What an error of the field does to a number of the field itself."""
+    return value if name.startswith(OF_FIELD) else 0.0
+
+
+def _last_update(problem: Problem, step: StepRecord) -> float:
+    """The last update of the step, in m."""
+    return step.iterations[-1].update * problem.scales.length if step.iterations else 0.0
