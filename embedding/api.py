@@ -39,6 +39,10 @@ def solve(
     archive of a scene that differs in loads or materials, go from its last state to the end of this scene's path; where
     there is no way from there, as on another mesh, solve from rest, and ``solution.start`` says why.
 
+    A scene that states an accuracy is solved on finer meshes and with dearer models until its error estimate meets it,
+    from rest; ``solution.attempts`` tell of all solves, each of which listeners are told of and writes the archive
+    anew.
+
     Raises:
         SceneError: the scene cannot be modelled.
         ArchiveError: the archive cannot be written, or not be resumed: it is damaged, of another scene, or its run is
@@ -46,6 +50,8 @@ def solve(
         SolveError: the path was not solved to its end; its ``solution`` holds the accepted steps, the reason and
             advice. With ``throw=False`` that solution is returned instead.
     """
+    if scene.accuracy is not None and resume is None:
+        return _accurate(scene, archive, start is not None, throw=throw, progress=progress, listeners=listeners)
     recorder, known = None, None
     if resume is not None:
         if archive is not None and os.path.abspath(archive) != os.path.abspath(resume):
@@ -57,6 +63,27 @@ def solve(
         recorder = Recorder(archive)
     neighbour = None if start is None or resume is not None else _last_state(start)
     return _solved(scene, recorder, known, neighbour, throw=throw, progress=progress, listeners=listeners)
+
+
+def _accurate(
+    scene: Scene, archive: Name | None, starts: bool, *, throw: bool, progress: bool, listeners: Sequence[Listener]
+) -> Solution:
+    from embedding.accuracy import solve_to_accuracy
+
+    def once(attempted: Scene) -> Solution:
+        recorder = None
+        if archive is not None:
+            from embedding.archive import Recorder
+
+            recorder = Recorder(archive)
+        return _solved(attempted, recorder, None, None, throw=False, progress=progress, listeners=listeners)
+
+    solution = solve_to_accuracy(scene, once)
+    if starts:
+        solution = replace(solution, start="rest: an accuracy is asked for")
+    if throw and not solution.result.ok:
+        raise SolveError(solution.message, solution)
+    return solution
 
 
 def resume(

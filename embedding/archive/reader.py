@@ -130,8 +130,13 @@ class Archive:
 
     @property
     def error(self) -> ArchivedError | None:
-        """The estimated error, if the run has ended with one."""
+        """The estimated error of the answer, if the run has ended with one."""
         return ArchivedError(**self._end["error"]) if self._end.get("error") else None
+
+    @property
+    def errors(self) -> dict[str, ArchivedError]:
+        """The estimated error of every scalar of the last step, if the run has ended with them."""
+        return {name: ArchivedError(**error) for name, error in self._end.get("errors", {}).items()}
 
     @property
     def assumptions(self) -> tuple[Assumption, ...]:

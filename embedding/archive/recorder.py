@@ -110,6 +110,7 @@ class Recorder(Listener):
             {
                 "result": {"name": result.name, "advice": result.advice, "message": solution.message},
                 "error": None if solution.error is None else asdict(solution.error),
+                "errors": {name: asdict(error) for name, error in solution.errors.items()},
                 "cost": asdict(solution.cost),
                 "assumptions": [asdict(assumption) for assumption in solution.assumptions],
                 "cuts": self._cuts,

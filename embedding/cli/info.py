@@ -40,6 +40,7 @@ def archive_summary(archive: Archive) -> dict[str, Any]:
         "result": asdict(archive.result),
         "critical_points": [{**vars(point), "mode": None} for point in archive.critical_points],
         "estimated_error": None if archive.error is None else asdict(archive.error),
+        "errors": {name: asdict(error) for name, error in archive.errors.items()},
         "assumptions": [asdict(assumption) for assumption in archive.assumptions],
         "cost": None if archive.cost is None else asdict(archive.cost),
         "steps": [asdict(step) for step in archive.steps],

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from embedding.solving.solution import Assumption, Cost, CriticalPoint, ErrorEstimate, Solution
 
 NOISE = 1e-12
+SMALL = 0.01
+"""Part of an error whose source is not worth a word."""
 
 
 def print_json(value: Mapping[str, Any]) -> None:
@@ -81,8 +83,16 @@ def words(name: str) -> str:
 
 
 def error_line(error: ErrorEstimate | ArchivedError) -> str:
-    """An error estimate in one line."""
-    return f"{error.value:.1e} of {error.quantity} ({error.method})"
+    """An error estimate in one line: its size, its largest sources, how it was found."""
+    largest = sorted(error.parts.items(), key=lambda part: -part[1])
+    parts = ", ".join(f"{source} {part:.1e}" for source, part in largest if part > SMALL * error.value)
+    return f"{error.value:.1e} of {error.quantity}{': ' if parts else ''}{parts} ({error.method})"
+
+
+def within(value: str, error: ErrorEstimate | ArchivedError | None) -> str:
+    """A number with its relative error beside it; one that is given has none."""
+    shown = error is not None and error.value > 0.0 and value.split(" ")[0] != "0"
+    return f"{value} (± {error.value:.1e})" if shown and error is not None else value
 
 
 def cost_line(cost: Cost | ArchivedCost) -> str:
@@ -124,6 +134,7 @@ def solution_summary(solution: Solution) -> dict[str, Any]:
         "scalars": last.scalars if last else {},
         "critical_points": [{**vars(point), "mode": None} for point in solution.critical_points],
         "estimated_error": None if solution.error is None else asdict(solution.error),
+        "errors": {name: asdict(error) for name, error in solution.errors.items()},
         "assumptions": [asdict(assumption) for assumption in solution.assumptions],
         "cost": asdict(solution.cost),
         "archive": solution.archive,
@@ -138,7 +149,8 @@ def print_solution(solution: Solution, picture: Path | None) -> None:
     per_length = solution.scene.shell.shape.reductions == ("plane-strain",)
     scalars = solution.steps[-1].scalars if solution.steps else {}
     units = {name: scalar_unit(name, per_length) for name in scalars}
-    rows = [(name, number(value, units[name])) for name, value in without_noise(scalars, units).items()]
+    told = {name: number(value, units[name]) for name, value in without_noise(scalars, units).items()}
+    rows = [(name, within(text, solution.errors.get(name))) for name, text in told.items()]
     rows += critical_rows(solution.critical_points)
     if solution.error is not None:
         rows.append(("estimated error", error_line(solution.error)))

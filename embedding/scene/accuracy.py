@@ -28,11 +28,13 @@ def _different(names: tuple[str, ...]) -> tuple[str, ...]:
 class Accuracy(Part):
     """The ``relative`` error allowed in the scalars ``of`` at the end of the path.
 
-    Mesh, order and models are then chosen for it, and refined until the error estimate meets it. Without names it is
-    the scalar whose error a run of the scene estimates by default (docs/accuracy.md).
+    Mesh, order and models are then chosen for it, and refined until the error estimate meets it or a mesh would have
+    more than ``max_unknowns``. Without names it is the scalar whose error a run of the scene estimates by default
+    (docs/accuracy.md).
     """
 
     relative: Annotated[float, BeforeValidator(Number(at_least=FINEST, at_most=COARSEST))]
+    max_unknowns: Annotated[int, BeforeValidator(Number(whole=True, at_least=1000, at_most=100_000_000))] = 200_000
     of: Annotated[tuple[Annotated[str, BeforeValidator(_name)], ...], AfterValidator(_different)] = ()
 
 

@@ -51,6 +51,15 @@ class Result(Enum):
         "Newton's method did not converge with the smallest step allowed. "
         "Make the mesh on the shell finer, add steps, or start from an inflated state"
     )
+    BEYOND_THE_MODEL = (
+        "what the model itself leaves out is more than the accuracy asked for, on any mesh. "
+        "Ask for less (accuracy), take back what was pinned where the parts of the error say so, "
+        "or model the wall as a three-dimensional solid"
+    )
+    ACCURACY_NOT_REACHED = (
+        "the accuracy asked for was not reached with the unknowns allowed. "
+        "Ask for less (accuracy.relative), or allow more (accuracy.max_unknowns)"
+    )
     INTERRUPTED = "interrupted; every accepted step is kept"
 
     @property

@@ -14,7 +14,6 @@ from embedding.scene import Scales, Scene
 from embedding.solving.events import StepRecord
 from embedding.solving.result import Result
 
-
 DISCRETE = ("shell", "geometry", "ambient", "ambient and coupling")
 """Sources of errors that finer meshes and higher orders reduce."""
 
@@ -86,6 +85,18 @@ class CriticalPoint:
 
 
 @dataclass(frozen=True)
+class Attempt:
+    """One solve on the way to an accuracy: what it changed of the scene, its estimated error (None without an answer),
+    why it was not enough ("" where it was), and what it took."""
+
+    changes: tuple[str, ...]
+    estimate: float | None
+    reason: str
+    wall_seconds: float
+    cpu_seconds: float
+
+
+@dataclass(frozen=True)
 class Solution:
     """The outcome of a solve, complete or not; ``solution["stretch"]`` is a scalar's history in SI units.
 
@@ -93,6 +104,7 @@ class Solution:
     those that ``scene.accuracy`` names, or one that fits the scene.
 
     ``iterations`` counts every Newton step, those of failed attempts and of looking for critical points included.
+    ``attempts`` are the solves that led to a stated accuracy, this one the last.
     ``start`` is "rest", "neighbour" where the state of another run was started from, or "rest: ..." with the reason why
     it could not be. ``assumptions`` are what the plan left out, checked on the last step.
     """
@@ -110,6 +122,7 @@ class Solution:
     critical_points: tuple[CriticalPoint, ...] = ()
     iterations: int = 0
     start: str = "rest"
+    attempts: tuple[Attempt, ...] = ()
     assumptions: tuple[Assumption, ...] = ()
 
     def __getitem__(self, name: str) -> npt.NDArray[np.float64]:

@@ -37,6 +37,7 @@ def record_of(solution: Solution) -> dict[str, Any]:
         "iterations": solution.iterations,
         "estimated_error": None if solution.error is None else solution.error.value,
         "estimated": None if solution.error is None else solution.error.quantity,
+        "errors": {name: error.value for name, error in solution.errors.items()},
         "seconds": solution.cost.wall_seconds,
         "cpu_seconds": solution.cost.cpu_seconds,
         "unknowns": solution.cost.unknowns,

@@ -153,9 +153,8 @@ def _row(rung: Rung, record: Record, quantity: str) -> Row:
     if record["status"] != DONE or quantity not in last:
         reason = record["reason"] or f"it has no {quantity}"
         return Row(rung.name, rung.of, rung.changes, record["status"], reason)
-    estimate = record["estimated_error"] if record.get("estimated") == quantity else None
+    estimate = record.get("errors", {}).get(quantity, math.nan)
     return Row(
-        rung.name, rung.of, rung.changes, DONE, "", last[quantity], math.nan,
-        math.nan if estimate is None else estimate, record["cpu_seconds"], record["seconds"],
-        record["peak_memory_bytes"], sum(record["unknowns"].values()),
+        rung.name, rung.of, rung.changes, DONE, "", last[quantity], math.nan, estimate,
+        record["cpu_seconds"], record["seconds"], record["peak_memory_bytes"], sum(record["unknowns"].values()),
     )  # fmt: skip

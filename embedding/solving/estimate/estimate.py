@@ -8,7 +8,8 @@ geometry        the same, from curving the elements by one order more (where it 
 ambient         the rest of that change; at rims and sharp edges of conductors its limit over all orders
 thickness       what membrane theory misses of a thick wall, times the response to loads (:mod:`.theory`)
 shear           what bending without transverse shear leaves out, 0.6 (T/L)^2 of the deflection of a cantilever
-faces           where a field acts: second order in t/r on opened faces (:mod:`.theory`), 1.6 t/r on closed ones
+opened faces    where a field acts on them, of second order in t/r (:mod:`.theory`)
+closed faces    the same at the mid-surface: 1.6 t/r of the field's load and of what the field itself is
 far field       what Robin's condition makes of the harmonics it is not exact for (ambient/harmonics)
 solver          the last update of Newton's method, or of the turns of field and shell
 ==============  =====================================================================================================
@@ -42,7 +43,7 @@ COUNTED = ("unstable_modes", "remeshings", "min_jacobian", "coupling_iterations"
            "held_force")  # fmt: skip
 """Scalars that describe the run and not the answer."""
 OF_FIELD = ("charge", "flux", "field_energy", "force", "torque", "pressure_top", "pressure_bottom")
-CANCELLING = 3.0
+WALL, CANCELLING = ("thickness", "opened faces"), 2.0
 CHARGED, STEEPEST = 2.0, 10.0
 THROUGH = 0.15
 """Of the tractions on opened faces of permeable and dielectric shells times (t/r)^2: a bound of the root mean squares
@@ -96,16 +97,18 @@ def _straight(problem: Problem) -> Callable[[Callable[[], None]], None]:
 def _sum(name: str, value: float, sources: dict[str, Scalars], whole: Scalars, method: str) -> ErrorEstimate:
     parts = {source: abs(errors[name] / value) for source, errors in sources.items() if name in errors}
     if name in whole:
-        parts |= _not_beyond(parts, abs(whole[name] / value))
+        parts |= _not_beyond(parts, DISCRETE, abs(whole[name] / value))
+    wall = sum(errors.get(name, 0.0) for source, errors in sources.items() if source in WALL)
+    parts |= _not_beyond(parts, WALL, abs(wall / value))
     return ErrorEstimate(sum(parts.values()), name, method, parts)
 
 
-def _not_beyond(parts: Scalars, whole: float) -> Scalars:
-    """Parts of the discretisation that cancel, as those of geometry and ambient on coarse meshes, scaled down to
-    ``CANCELLING`` times what they change together."""
-    found = {source: parts[source] for source in DISCRETE if source in parts}
-    together, most = sum(found.values()), CANCELLING * whole
-    return {source: part * most / together for source, part in found.items()} if together > most else {}
+def _not_beyond(parts: Scalars, sources: Sequence[str], together: float) -> Scalars:
+    """Parts of known signs that cancel, as those of geometry and ambient on coarse meshes, scaled down to
+    ``CANCELLING`` times what they change ``together``."""
+    found = {source: parts[source] for source in sources if source in parts}
+    apart, most = sum(found.values()), CANCELLING * together
+    return {source: part * most / apart for source, part in found.items()} if apart > most else {}
 
 
 def _method(problem: Problem, changes: Changes | None) -> str:
@@ -190,7 +193,7 @@ def _field(problem: Problem, scalars: Scalars, responses: dict[str, Scalars], st
     found, pull = {}, responses.get("field", {})
     wall = wall_of(problem, scalars)
     if wall is not None:
-        found["faces"] = _faces(problem, wall, scalars, responses, state)
+        found["opened faces" if plan.opened else "closed faces"] = _faces(problem, wall, scalars, responses, state)
     if ambient.outer != "grounded" and not plan.sizes.beyond and plan.sizes.box is None:
         reach = reach_of(problem.scene, ambient) * max(1.0, scalars.get("stretch_max", 1.0))
         off = _missed_far_away(problem, reach)
@@ -207,7 +210,7 @@ def _faces(
     off, own = (wall.face(steep), wall.place(steep)) if opened else (2 * [CLOSED_FACES * wall.thin])
     borne = abs(problem.scales.stress * wall.pressure(problem.system.physics.law))
     off *= min(1.0, sum(map(abs, pulled)) / borne) if borne > 0.0 else 1.0
-    missed = {name: off * pull.get(name, 0.0) + own * _own(name, value) for name, value in scalars.items()}
+    missed = {name: -off * pull.get(name, 0.0) - own * _own(name, value) for name, value in scalars.items()}
     field = problem.system.physics.field
     if opened and not wall.tube and field is not None and field.matter.contrast is not None:
         through = THROUGH * wall.thin**2
