@@ -10,7 +10,8 @@ from problems.known import Known, all_known
 
 QUICK = (
     "charged balloon T/R 0.1", "charged balloon, charge", "grounded balloon", "dielectric tube",
-    "inflated tube T/R 0.1", "inflated balloon T/R 0.05", "varying pressure", "capacitance: sphere", "capacitance: oblate spheroid 1:3",
+    "inflated tube T/R 0.1",
+    "inflated balloon T/R 0.05", "varying pressure", "capacitance: sphere", "capacitance: oblate spheroid 1:3",
     "capacitance: disc", "capacitance: bowl of 90 degrees", "two spheres: force", "sphere in a field: pull",
     "permeable sphere T/R 0.1", "blown-up membrane", "cantilever: deflection",
 )  # fmt: skip

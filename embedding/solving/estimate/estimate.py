@@ -43,6 +43,9 @@ COUNTED = ("unstable_modes", "remeshings", "min_jacobian", "coupling_iterations"
            "held_force")  # fmt: skip
 """Scalars that describe the run and not the answer."""
 OF_FIELD = ("charge", "flux", "field_energy", "force", "torque", "pressure_top", "pressure_bottom")
+STEEPER = 6.0
+"""The error of the energy far away goes like the fifth power of the shell's size over the ambient's radius (sixth in the
+plane), so that forces, its derivatives by that size, are off by so many times as much of themselves."""
 WALL, CANCELLING = ("thickness", "opened faces"), 2.0
 CHARGED, STEEPEST = 2.0, 10.0
 THROUGH = 0.15
@@ -197,7 +200,9 @@ def _field(problem: Problem, scalars: Scalars, responses: dict[str, Scalars], st
     if ambient.outer != "grounded" and not plan.sizes.beyond and plan.sizes.box is None:
         reach = reach_of(problem.scene, ambient) * max(1.0, scalars.get("stretch_max", 1.0))
         off = _missed_far_away(problem, reach)
-        found["far field"] = {name: off * (pull.get(name, 0.0) + _own(name, value)) for name, value in scalars.items()}
+        found["far field"] = {
+            name: off * (STEEPER * pull.get(name, 0.0) + _own(name, value)) for name, value in scalars.items()
+        }
     return found
 
 
