@@ -39,6 +39,8 @@ def run(
     /,
     *,
     out: Annotated[Path | None, Parameter(help="Archive to write; default NAME.vtkhdf.")] = None,
+    accuracy: Annotated[float | None, Parameter(help="Relative error allowed; chooses mesh, order and models.")] = None,
+    of: Annotated[tuple[str, ...], Parameter(negative="", help="Scalar that is to have it. May be repeated.")] = (),
     overrides: Overrides = (),
     as_json: AsJson = False,
     progress: Annotated[bool, Parameter(help="Show the progress on standard error.")] = True,
@@ -52,7 +54,7 @@ def run(
     with loading():
         from embedding.scene import load_scene
 
-        stated = load_scene(scene, overrides)
+        stated = load_scene(scene, (*overrides, *_accuracy(accuracy, of)))
     archive = check_output("--out", default_archive(stated.name) if out is None else out, ".vtkhdf")
     if picture is not None:
         from embedding.view.rendering import require_rendering
@@ -76,6 +78,12 @@ def run(
         print_json({**solution_summary(solution), "picture": picture})
     else:
         print_solution(solution, picture)
+
+
+def _accuracy(relative: float | None, of: tuple[str, ...]) -> tuple[str, ...]:
+    """The options as overrides of the scene."""
+    names = (f"accuracy.of=[{', '.join(repr(name) for name in of)}]",) if of else ()
+    return (*((f"accuracy.relative={relative!r}",) if relative is not None else ()), *names)
 
 
 @app.command

@@ -123,6 +123,17 @@ def assumption_rows(assumptions: Sequence[Assumption]) -> list[tuple[str, str]]:
     return rows
 
 
+def attempt_rows(solution: Solution) -> list[tuple[str, str]]:
+    """The solves that led to an accuracy, a row each."""
+    asked, rows = solution.scene.accuracy, []
+    for number, attempt in enumerate(solution.attempts, 1):
+        found = "no answer" if attempt.estimate is None else f"{attempt.estimate:.1e}"
+        goal = f", {asked.relative:g} is asked" if asked is not None else ""
+        why = f"; {attempt.reason}" if attempt.reason else ""
+        rows.append((f"attempt {number}", f"error {found}{goal}{why} ({', '.join(attempt.changes)})"))
+    return rows
+
+
 def solution_summary(solution: Solution) -> dict[str, Any]:
     """A solution as plain data: result, final scalars, error estimate and cost."""
     last = solution.steps[-1] if solution.steps else None
@@ -136,6 +147,7 @@ def solution_summary(solution: Solution) -> dict[str, Any]:
         "estimated_error": None if solution.error is None else asdict(solution.error),
         "errors": {name: asdict(error) for name, error in solution.errors.items()},
         "assumptions": [asdict(assumption) for assumption in solution.assumptions],
+        "attempts": [asdict(attempt) for attempt in solution.attempts],
         "cost": asdict(solution.cost),
         "archive": solution.archive,
     }
@@ -154,7 +166,7 @@ def print_solution(solution: Solution, picture: Path | None) -> None:
     rows += critical_rows(solution.critical_points)
     if solution.error is not None:
         rows.append(("estimated error", error_line(solution.error)))
-    rows += assumption_rows(solution.assumptions)
+    rows += attempt_rows(solution) + assumption_rows(solution.assumptions)
     rows.append(("cost", cost_line(solution.cost)))
     if solution.archive is not None:
         rows.append(("archive", str(solution.archive)))

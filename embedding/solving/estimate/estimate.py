@@ -44,8 +44,8 @@ COUNTED = ("unstable_modes", "remeshings", "min_jacobian", "coupling_iterations"
 """Scalars that describe the run and not the answer."""
 OF_FIELD = ("charge", "flux", "field_energy", "force", "torque", "pressure_top", "pressure_bottom")
 STEEPER = 6.0
-"""The error of the energy far away goes like the fifth power of the shell's size over the ambient's radius (sixth in the
-plane), so that forces, its derivatives by that size, are off by so many times as much of themselves."""
+"""The error of the energy far away goes like the fifth power of the shell's size over the ambient's radius (sixth in
+the plane), so that forces, its derivatives by that size, are off by so many times as much of themselves."""
 WALL, CANCELLING = ("thickness", "opened faces"), 2.0
 CHARGED, STEEPEST = 2.0, 10.0
 THROUGH = 0.15
