@@ -58,6 +58,8 @@ def solution(scene: Any, archive: Path | None, steps: Sequence[StepRecord], resu
         steps=tuple(steps),
         critical_points=(CRITICAL,),
         assumptions=(),
+        errors={},
+        attempts=(),
         error=Estimate(value=2e-4, quantity="stretch", method="one order lower", parts={"discretisation": 2e-4}),
         cost=Cost(
             wall_seconds=75.0,

@@ -1,0 +1,70 @@
+"""What accuracy costs on every problem: the whole ladder of each scene, compared; the tables of docs/trades.md.
+
+``python -m benchmarks.trades docs FOLDER`` (an hour on one core) keeps the archives of all rungs in FOLDER, and goes on
+with what is there.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from benchmarks.pages import write
+from embedding import load_scene
+from embedding.studies.errors import StudyError
+from embedding.trade import Trade, measure_trade
+from embedding.trade.measuring import TOLERANCES
+
+PROBLEMS = Path(__file__).parents[1] / "problems"
+PAGE = Path(__file__).parents[1] / "docs" / "trades.md"
+TOO_LONG = ("half_cylinder", "pinched_cylinder", "pulled_cylinder", "obstacle_course")
+"""Paths of minutes on every rung: docs/benchmarks.md has them on three meshes."""
+LONGEST = 120.0
+MODELS = ("reduction", "shell theory", "faces", "coupling", "far field")
+"""Choices of the model; those of the mesh are in the columns of the cheapest."""
+
+
+def trades(folder: Path) -> Iterator[Trade]:
+    """Every problem whose scene has an answer on its finest rung."""
+    for file in sorted(PROBLEMS.glob("*.toml")):
+        if file.stem in TOO_LONG:
+            continue
+        try:
+            yield measure_trade(load_scene(file), folder / file.stem, seconds=LONGEST, progress=True)
+        except StudyError as error:
+            print(f"{file.stem}: {error}", file=sys.stderr)
+
+
+def cheapest_row(trade: Trade) -> str:
+    """One problem: the plan, and the cheapest rung within each tolerance."""
+    planned = next(row for row in trade.rows if row.of == "plan")
+    best = trade.best()
+    cells = [f"{best[t].rung} ({trade.cost(best[t]):.2g})" if best[t] else "none" for t in TOLERANCES]  # type: ignore
+    plan = f"{planned.error:.1e} ({planned.estimate:.1e}), {planned.cpu_seconds:.1f} s"
+    return f"| {trade.scene.name} | {trade.quantity} | {plan} | {' | '.join(cells)} |"
+
+
+def model_rows(trade: Trade) -> Iterator[str]:
+    """What each other model of a problem is off by, and what it costs."""
+    for row in trade.rows:
+        if row.of in MODELS and row.done and math.isfinite(row.error):
+            yield f"| {trade.scene.name} | {row.rung} | {row.error:.1e} | {trade.cost(row):.2g} |"
+
+
+def tables(folder: Path) -> dict[str, list[str]]:
+    """The tables of the page, by their markers."""
+    found = list(trades(folder))
+    heads = " | ".join(f"within {t:g}" for t in TOLERANCES)
+    cheapest = [f"| problem | answer | plan: error (estimate), CPU | {heads} |", "|" + "---|" * (3 + len(TOLERANCES))]
+    models = ["| problem | in place of the plan's | error | CPU over the plan's |", "|---|---|---|---|"]
+    return {
+        "cheapest": cheapest + [cheapest_row(trade) for trade in found],
+        "models": models + [row for trade in found for row in model_rows(trade)],
+    }
+
+
+if __name__ == "__main__":
+    for mark, lines in tables(Path(sys.argv[2])).items():
+        write(PAGE, lines, f"<!-- {mark} -->")
