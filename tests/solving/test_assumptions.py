@@ -34,9 +34,9 @@ def named(solution: Solution, topic: str) -> Assumption:
 def test_closed_faces_are_worth_what_they_miss(ratio: float) -> None:
     """Of the exact thick sphere, at a stretch of 1.2 (docs/theory/interface.md); a bound, and not a wild one."""
     solution = charged_balloon.run(*charged_balloon.at(ratio, 1.2), "model.interface=closed", "path=[{steps=3}]")
-    true = abs(solution["stretch"][-1] / charged_balloon.reference(solution)[-1] - 1)
-    found = named(solution, "interface")
-    assert true < found.number < 3 * true
+    true = abs((solution["stretch"][-1] - 1) / (charged_balloon.reference(solution)[-1] - 1) - 1)
+    found = named(solution, "interface")  # of the displacement, to first order
+    assert 0.9 * true < found.number < 3 * true
     assert found.held == (found.number <= 0.01)
     assert found.rung == ()  # the scene pins it
 
@@ -78,7 +78,7 @@ def test_a_field_that_is_solved_once_is_off_by_its_gap() -> None:
     changes = grounded_balloon.at_voltage(340e3)
     once = solve(load_scene(grounded_balloon.SCENE, (*changes, "model.coupling=once", "path=[{steps=6}]")))
     joint = solve(load_scene(grounded_balloon.SCENE, (*changes, "path=[{steps=6}]")))
-    true = abs(once["stretch"][-1] / joint["stretch"][-1] - 1)
+    true = abs(once["displacement"][-1] / joint["displacement"][-1] - 1)
     found = named(once, "coupling")
     assert not found.held
     assert 0.5 * true < found.number < 3 * true
@@ -180,7 +180,8 @@ def test_the_stated_accuracy_is_what_is_allowed(tmp_path: Path) -> None:
     tension, and leaves bending out whatever the accuracy."""
     stated = varying_pressure_sphere.scene("accuracy=1e-7", "path=[{steps=2}]")
     file = tmp_path / "tight.vtkhdf"
-    solution = solve(stated, archive=file)
+    solution = solve(stated, archive=file, throw=False)
+    assert solution.result is Result.BEYOND_THE_MODEL
     found = named(solution, "thin shell")
     assert (found.allowed, found.held) == (1e-7, False)
     assert raised(stated, solution.assumptions).model.theory == "bending"

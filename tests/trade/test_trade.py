@@ -89,7 +89,7 @@ def test_a_short_ladder(scene: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert len(before) == 3
     assert main([*asked, "--json"]) == 0
     summary = json.loads(capsys.readouterr().out)
-    assert summary["quantity"] == "stretch" and summary["best"]["1e-06"] == PLANNED
+    assert summary["quantity"] == "displacement" and summary["best"]["0.0001"] == PLANNED
     assert before == {path: path.stat().st_mtime_ns for path in Path("small_balloon.trade").rglob("record.json")}
 
 
