@@ -22,6 +22,7 @@ from embedding.cli.output import (
 
 if TYPE_CHECKING:
     from embedding.archive import Archive, Verification
+    from embedding.archive.records import ArchivedError
 
 #: Scalars worth a column for people, in this order; the later ones are left out where they are zero or unknown.
 COLUMNS = ("stretch",)
@@ -65,6 +66,7 @@ def print_archive(archive: Archive) -> None:
     rows = [("result", f"{words(result.name)}: {result.message}")]
     if archive.error is not None:
         rows.append(("estimated error", error_line(archive.error)))
+        rows += _accuracy(archive, archive.error)
     rows += assumption_rows(archive.assumptions)
     if archive.cost is not None:
         rows.append(("cost", cost_line(archive.cost)))
@@ -77,6 +79,14 @@ def print_archive(archive: Archive) -> None:
     if len(archive):
         print()
         console().print(_history(archive))
+
+
+def _accuracy(archive: Archive, error: ArchivedError) -> list[tuple[str, str]]:
+    """Whether the answer is as accurate as its scene asks for."""
+    asked = archive.scene_object().accuracy
+    if asked is None:
+        return []
+    return [("accuracy", f"{asked.relative:g} asked: {'reached' if error.value <= asked.relative else 'NOT reached'}")]
 
 
 def _history(archive: Archive) -> Table:
