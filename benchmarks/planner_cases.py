@@ -12,7 +12,14 @@ from embedding.plan.decisions import Plan
 from embedding.plan.effects import Effects
 from embedding.plan.far_field import reach_of
 from embedding.scene.scales import EPSILON_0, MU_0
-from problems import charged_balloon, dielectric_balloon, grounded_balloon, membrane_pull_in, permeable_sphere
+from problems import (
+    charged_balloon,
+    dielectric_balloon,
+    grounded_balloon,
+    membrane_pull_in,
+    permeable_sphere,
+    varying_pressure_sphere,
+)
 from problems.exact import cylinder, sphere
 from problems.exact.roots import bracketed_root
 
@@ -29,7 +36,7 @@ class Case:
 
     ``of`` is the answer; ``cheap`` and ``dear`` are the overrides that leave the term out and bring it in, ``exact`` is
     the answer itself, where it is known, in place of a dear solve. ``number`` is the planner's estimate of what the
-    term is worth, ``leaves_out`` says whether a plan is without it.
+    term is worth, ``leaves_out`` says whether a plan is without it; None where it costs nothing, and always stays.
     """
 
     term: str
@@ -41,7 +48,7 @@ class Case:
     cheap: tuple[str, ...]
     dear: tuple[str, ...]
     number: Callable[[Effects], float | None]
-    leaves_out: Callable[[Plan], bool]
+    leaves_out: Callable[[Plan], bool] | None
     exact: Callable[[float], float] | None = None
 
     def scene(self, value: float, accuracy: float | None = None) -> Scene:
@@ -217,6 +224,27 @@ def _pressed_disc(ratio: float) -> Scene:
     )
 
 
+def _uneven(kilopascals: float) -> Scene:
+    """A sphere in fluids whose pressure varies along it by so much, the difference being 5 kPa."""
+    top, bottom = (f"{kilopascals!r}*(z/0.02)**2 {sign} 2.5" for sign in "-+")
+    on_faces = {"top": top, "bottom": bottom}
+    pressures = [f"loads.pressure_{name}={{ expression='{p}', unit='kPa' }}" for name, p in on_faces.items()]
+    return varying_pressure_sphere.scene(*pressures, "path=[{steps=3}]")
+
+
+def _squeezed(pressure: float) -> Scene:
+    """A disc pulled outwards along its free rim, between two fluids of the same pressure, over the shear modulus."""
+    thickness = 0.02 * RADIUS
+    pull = {"edge": "rim", "traction": [0.1 * MU * thickness, 0.0, 0.0], "frame": "edge"}
+    loads = {"edge_tractions": [pull], "pressure_top": pressure * MU, "pressure_bottom": pressure * MU}
+    return _scene({"kind": "disc", "radius": RADIUS}, thickness, loads=loads, path=[{"steps": 2}])
+
+
+def _mean(name: str, parameter: str, values: tuple[float, ...], build: Callable[[float], Scene], of: str) -> Case:
+    cheap, dear = ("loads.variant=net",), ("loads.variant=embedding-aware",)
+    return Case("mean pressure", name, parameter, values, build, of, cheap, dear, lambda e: e.mean_pressure, None)
+
+
 def _thin(name: str, shape: dict[str, Any], module: Any) -> Case:
     """A membrane against the exact thick wall, at the stretch that its pressure has there."""
 
@@ -266,6 +294,8 @@ CASES = (
     _bending("stretched strip", "T/L", (0.05, 0.02, 0.005), _strip, "u_middle_y"),
     _bending("pressed disc", "T/R", (0.1, 0.02, 0.004), _pressed_disc, "u_middle_z"),
     _bending("tube with pinned ends", "T/R", (0.1, 0.02, 0.004), _pinned_tube, "stretch"),
+    _mean("in uneven fluids", "kPa", (30.0, 3.0, 0.3), _uneven, "stretch_max"),
+    _mean("disc with a free rim", "p/mu", (0.03, 0.003, 0.0003), _squeezed, "stretch"),
     _closed("charged sphere", "T/R", (0.1, 0.025, 0.00625), _charged, "stretch"),
     _closed("permeable sphere", "chi", (1.0, 3.0, 9.0), _permeable, "stretch_max"),
     Case(

@@ -73,6 +73,15 @@ class Effects:
         return loading.response * (MEMBRANE * self.slenderness**2 + rims)
 
     @property
+    def mean_pressure(self) -> float:
+        """What the mean of both face pressures is worth: it pushes where it varies, and squeezes a shell with rims."""
+        loading = self.loading
+        push = loading.unevenness_of_mean
+        push += loading.mean_pressure if self.shape.edges and not self.shape.closed else 0.0
+        whole = loading.mechanical + loading.pull + (loading.mean_pressure if self.shape.edges else 0.0)
+        return loading.response * push / whole if whole > 0.0 else 0.0
+
+    @property
     def closed_faces(self) -> float:
         """What the true places of the faces are worth: their distance over the radius, or over the gap to what stands
         beside the shell; and the space that is counted twice."""

@@ -77,11 +77,16 @@ class Loading:
         return list(zip(top, bottom, strict=True))
 
     @property
-    def _unevenness(self) -> float:
-        """How far the pressures go from their means: their difference, and their mean, whose gradient is felt."""
-        spread = [_spread([bottom - top for top, bottom in self._pressures])]
-        spread.append(_spread([(bottom + top) / 2 for top, bottom in self._pressures]) / self.lever)
-        return sum(spread) * self.lever / self.modulus
+    def unevenness_of_mean(self) -> float:
+        """That of the mean of both pressures, whose gradient times the thickness pushes like their difference."""
+        spread = _spread([(bottom + top) / 2 for top, bottom in self._pressures])
+        return abs(self.last.mechanical) * spread / self.modulus
+
+    @property
+    def mean_pressure(self) -> float:
+        """Size of the mean of both pressures over the shear modulus, a stress that squeezes the wall."""
+        mean = [(bottom + top) / 2 for top, bottom in self._pressures]
+        return abs(self.last.mechanical) * abs(sum(mean) / len(mean)) / self.modulus
 
     def _of_volume(self, ratio: float) -> float:
         if self.form == "cylinder":
@@ -103,14 +108,14 @@ class Loading:
         numbers = [
             spread * self.lever / mu,
             (math.hypot(*loads.body_force) + weight) * length / mu,
-            self._unevenness,
+            _spread([bottom - top for top, bottom in self._pressures]) * self.lever / mu,
             *(math.hypot(*edge.traction) / (mu * T) for edge in loads.edge_tractions),
             *(math.hypot(*line.force) / (mu * T) for line in loads.line_loads),
             *(math.hypot(*point.force) / (mu * T * length) for point in loads.point_loads),
             *(abs(edge.moment) / (mu * T**2) for edge in loads.edge_moments),
             *(12 * math.hypot(*support.displacement) / self.size for support in self.scene.supports),
         ]
-        return abs(self.last.mechanical) * sum(numbers)
+        return abs(self.last.mechanical) * sum(numbers) + self.unevenness_of_mean
 
     @property
     def mechanical(self) -> float:
@@ -134,6 +139,8 @@ class Loading:
         """Stretch and its response under pressure and pull; where the volume is controlled, the stretch of that."""
         if self.last.volume_ratio is not None and self._found is None:
             return Answer(math.pow(self.last.volume_ratio, 1 / 2 if self.form == "cylinder" else 1 / 3), 0.0)
+        if self._found is None and self.form == "flat" and self.transverse == 0.0:
+            return Answer(1.0 + self.others / 6, self.others / 6)  # in its plane: Y / (1 - nu) is 6 mu
         return self._found or answer(self.form, self.pressure, self.pull + self.others)
 
     @property

@@ -14,7 +14,7 @@ from embedding.plan.field import choose_extent, choose_interface, describe_poten
 from embedding.plan.mesh import choose_sizes, rim_size
 from embedding.plan.symmetry import choose_reduction, odd_planes
 from embedding.plan.theory import choose_locking, choose_theory, judge_thinness
-from embedding.scene import PressureField, Scene
+from embedding.scene import Scene
 
 
 def explain(scene: Scene) -> Plan:
@@ -41,7 +41,8 @@ def explain(scene: Scene) -> Plan:
         mesh = (*mesh, Decision("mesh at point loads", f"{sizes.shell / AT_POINTS:.3g} x size", reason))
     coupling = choose_coupling(scene, extent, effects, allowance)
     between = (coupling,) if coupling else ()
-    rest = (*_loads(scene), *_rigid(scene, reduction), *field, *between, *mesh, _order(scene, extent))
+    loads = _loads(scene, effects, allowance)
+    rest = (loads, *_rigid(scene, reduction), *field, *between, *mesh, _order(scene, extent))
     locking = choose_locking(scene) if bending else None
     thin = judge_thinness(scene, effects, allowance, bending=bending)
     decisions = (first, *_closed_form(effects), theory, thin, *([locking] if locking else []), *rest)
@@ -72,23 +73,15 @@ def _loaded_points(scene: Scene, reduction: Reduction) -> tuple[tuple[float, ...
     return tuple(dict.fromkeys(images))
 
 
-def _loads(scene: Scene) -> tuple[Decision, ...]:
-    """How face pressures act; what the mean of both, which squeezes the wall, is worth, and whether it varies."""
-    loads, variant = scene.loads, scene.loads.variant
-    points, modulus = scene.shell.shape.sample_points(), scene.shell.material.shear_modulus
-    both = (loads.pressure_top, loads.pressure_bottom)
-    sides = [p.values_at(points) if isinstance(p, PressureField) else [p] for p in both]
-    squeeze = max(abs(p) for side in sides for p in side) / modulus
-    measure = "squeeze: largest pressure over shear modulus"
-    if variant != "embedding-aware":
-        reason = "pinned by the scene; the consistent form is embedding-aware"
-        return (Decision("face pressures", variant, reason, squeeze, measure),)
-    varying = ", ".join(loads.pressure_fields)
-    even = "uniform pressures: their mean has no gradient"
-    reason = f"{varying} vary: the gradient of their mean is felt" if varying else even
-    if scene.shell.shape.edges:
-        reason += f"; the rim is {loads.rim}, and feels the mean"
-    return (Decision("face pressures", variant, f"{reason}; kept at no cost", squeeze, measure),)
+def _loads(scene: Scene, effects: Effects, allowance: Allowance) -> Decision:
+    """How face pressures act, and what their mean is worth, which squeezes the wall; it costs nothing to keep."""
+    loads, number, measure = scene.loads, effects.mean_pressure, "effect of the mean of both pressures on the answer"
+    felt = [f"the gradient of {', '.join(loads.pressure_fields)}"] if loads.pressure_fields else []
+    felt += [f"the rim, which is {loads.rim}"] if scene.shell.shape.edges else []
+    where = f"their mean is felt by {' and by '.join(felt)}" if felt else "their mean is not felt by a closed wall"
+    if loads.variant != "embedding-aware":
+        where = f"pinned by the scene; the consistent form is embedding-aware; {where}"
+    return Decision("face pressures", loads.variant, where, number, measure, allowance.threshold)
 
 
 def _rigid(scene: Scene, reduction: Reduction) -> tuple[Decision, ...]:

@@ -111,7 +111,7 @@ TOPICS = {
     "thin shell": "thin shell", "bending": "shell theory", "faces": "interface", "field": "ambient",
     "surroundings": "field", "perturbation": "field", "coupling": "coupling", "far field": "far field",
 }  # fmt: skip
-LEFT_OUT = [case for case in CASES if case.term != "thin shell"]
+LEFT_OUT = [case for case in CASES if case.leaves_out is not None and case.term != "thin shell"]
 
 
 def without(case: Case, value: float) -> Solution:
@@ -126,6 +126,7 @@ def without(case: Case, value: float) -> Solution:
 def test_whatever_was_left_out_can_be_raised(case: Case) -> None:
     """Every term that a plan leaves out is among the assumptions, and a violated one comes back."""
     solution = without(case, case.values[2])
+    assert case.leaves_out is not None
     assert case.leaves_out(solution.plan)
     found = named(solution, TOPICS[case.term])
     assert found.rung
