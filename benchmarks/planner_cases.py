@@ -297,6 +297,7 @@ CASES = (
     _mean("in uneven fluids", "kPa", (30.0, 3.0, 0.3), _uneven, "stretch_max"),
     _mean("disc with a free rim", "p/mu", (0.03, 0.003, 0.0003), _squeezed, "stretch"),
     _closed("charged sphere", "T/R", (0.1, 0.025, 0.00625), _charged, "stretch"),
+    _closed("charge that moves a sphere", "T/R", (0.1, 0.025, 0.00625), _charged, "displacement"),
     _closed("permeable sphere", "chi", (1.0, 3.0, 9.0), _permeable, "stretch_max"),
     Case(
         "field", "charged, inflated sphere", "share", (0.1, 0.02, 0.004), _charged_and_inflated, "stretch",

@@ -18,6 +18,8 @@ from embedding.scene.surface_fields import SurfaceField
 
 STRETCHES = {"stretch": 1, "stretch_max": 1, "stretch_min": 1, "axial_stretch": 1, "volume_ratio": 3}
 """Scalars that start at 1 and hardly move under a small load, and what power of a length they are."""
+RIGID = 1e-9
+"""Strain below which a shell answers linearly."""
 TIGHTENED = 1 / 3
 """How the deflection of a membrane answers to its load where it makes its own tension."""
 
@@ -168,15 +170,13 @@ class Loading:
 
     @property
     def of(self) -> tuple[str, ...]:
-        """The scalars whose accuracy counts: those stated, or what a run of the scene estimates the error of."""
+        """The scalars whose accuracy counts: those stated, or what counts as the answer of a run (docs/accuracy.md)."""
         stated = self.scene.accuracy.of if self.scene.accuracy is not None else ()
         if stated:
             return stated
         if self.held:
             return ("field_energy",)
-        rubber = all(material.incompressible for material in self.scene.shell.materials)
-        stretched = rubber and (self.shape.closed or self.tension is not None)
-        return ("pressure_difference",) if self.controlled else ("stretch",) if stretched else ("displacement",)
+        return ("pressure_difference",) if self.controlled else ("displacement",)
 
     @property
     def held(self) -> bool:
@@ -190,18 +190,20 @@ class Loading:
 
     @cached_property
     def response(self) -> float:
-        """Largest |d ln(answer) / d ln(load)| of the answers, or what was found of them: that of the stretch; a third
-        for displacements of a flat shell that its own deflection tightens; else 1."""
-        if self._found is not None:
-            return self._found.response
-        stretched = 0.0 if self.controlled else self.answer.response
-        tightened = self.form == "flat" and self._held_all_around and self._stretched_beforehand == 0.0
-        moved = TIGHTENED if tightened else 1.0
-        found = [
-            STRETCHES[name] * stretched if name in STRETCHES else moved if is_displacement(name) else 1.0
-            for name in self.of
-        ]
-        return max(found)
+        """Largest |d ln(answer) / d ln(load)| of the answers, or what was found of them."""
+        return self._found.response if self._found is not None else max(map(self._response_of, self.of))
+
+    def _response_of(self, name: str) -> float:
+        """That of the stretch, c; of a displacement l c / (l - 1), or a third on a flat shell that its own deflection
+        tightens; else 1."""
+        stretch, response = self.answer
+        if name in STRETCHES:
+            return 0.0 if self.controlled else STRETCHES[name] * response
+        if not is_displacement(name):
+            return 1.0
+        if self.form == "flat":
+            return TIGHTENED if self._held_all_around and self._stretched_beforehand == 0.0 else 1.0
+        return stretch * response / abs(stretch - 1.0) if abs(stretch - 1.0) > RIGID else 1.0
 
     @cached_property
     def tension(self) -> float | None:
