@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 Memory = dict[str, Any]
 """Named numbers and arrays, lists and tables of them: what a part of a run goes on from."""
-FEW = 250
+FEW = 100
 """Most unknowns at which the inverse is told: a solve for each takes as long as one more step of Newton's method."""
 SADDLE = ("moment", "pressure", "tau_t", "tau_b", "phi", "jump")
 """Unknowns in which the Lagrangian is stationary but not least: each brings one negative eigenvalue to its matrix."""

@@ -12,7 +12,8 @@ from problems import membrane_pull_in
 from problems.exact import mems
 from problems.membrane_pull_in import DISC, FINE, RATIOS, STRIP
 
-PUBLISHED = [(STRIP, 1.400016), (DISC, 0.789229)]
+SLOW = pytest.mark.slow
+PUBLISHED = [pytest.param(STRIP, 1.400016, id="strip"), pytest.param(DISC, 0.789229, id="disc", marks=SLOW)]
 
 
 @cache
@@ -47,7 +48,7 @@ def test_thinner_gaps(name: str, published: float) -> None:
     assert logarithm == pytest.approx(mems.fringe(membrane_pull_in.known(name)), rel=0.08)
 
 
-@pytest.mark.parametrize(("name", "body"), [(STRIP, "strip"), (DISC, "disc")])
+@pytest.mark.parametrize(("name", "body"), [(STRIP, "strip"), pytest.param(DISC, "disc", marks=SLOW)])
 def test_the_middle_on_the_way(name: str, body: str) -> None:
     """Deflection of the middle at every load below nine tenths of the pull-in, at g = L/40."""
     solutions, middle = solved(name)
@@ -62,7 +63,7 @@ def test_the_middle_on_the_way(name: str, body: str) -> None:
     assert middle[below][low] / height == pytest.approx(exact, rel=5e-3)
 
 
-@pytest.mark.parametrize("name", [STRIP, DISC])
+@pytest.mark.parametrize("name", [STRIP, pytest.param(DISC, marks=SLOW)])
 def test_stable_before_and_unstable_beyond(name: str) -> None:
     (point,) = (p for p in solved(name)[0][-1].critical_points if p.kind == "limit")
     assert point.unstable == (0, 1)

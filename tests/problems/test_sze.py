@@ -31,6 +31,7 @@ def test_published_end_values(problem: object) -> None:
     assert path.solution.iterations <= MOST
 
 
+@pytest.mark.slow
 def test_slit_annulus() -> None:
     """Finer than the scene: 0.34 and 0.27 % below the published values; another code ends 0.8 and 0.6 % below."""
     coarse, fine = slit_annulus.run(), slit_annulus.run("discretisation.shell_size=1.5 m")
@@ -42,7 +43,7 @@ def test_slit_annulus() -> None:
 
 def test_hemisphere_converges() -> None:
     """Orders 3 and 4 on fine meshes end at 4.0745 and 8.1489, Kratos' triangles 64 x 64 at 4.0716 and 8.1484."""
-    path = hemisphere_with_hole.run("discretisation.shell_size=1.5 m")
+    path = hemisphere_with_hole.run("discretisation.shell_size=2 m")
     assert path.end("outward") == pytest.approx(4.0745, rel=5e-4)
     assert path.end("inward") == pytest.approx(8.1489, rel=5e-4)
     assert path.solution.iterations <= MOST
