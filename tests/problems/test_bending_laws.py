@@ -39,7 +39,10 @@ def test_small_strains(name: str, reduction: str) -> None:
     assert bent.moved(0.0, 0.0, 0.0)[2] == pytest.approx(exact, rel=5e-5)
 
 
-@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow if n in ("ogden", "yeoh") else ()) for n in LAWS])
+SLOW = {name: pytest.mark.slow if name in ("ogden", "yeoh") else () for name in LAWS}
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=marks) for name, marks in SLOW.items()])
 def test_moderate_strains(name: str) -> None:
     """A clamped disc of T/R = 0.05 blown up by a quarter of its radius: a little below the membrane, which has no
     clamp, and the same on meshes that resolve the layer at the clamp. (From twice this load on, the curvature there

@@ -72,9 +72,9 @@ CASES = [
 
 
 def counted(system: System, monkeypatch: pytest.MonkeyPatch) -> int | None:
-    """Unstable modes, the same by elimination and, in a system this small, from the inverse."""
+    """Unstable modes, the same by elimination and, where few unknowns move, from the inverse."""
     counts = []
-    for few in (0, 10_000):
+    for few in (0, 100):
         monkeypatch.setattr("embedding.coupling.system.FEW", few)
         counts.append(unstable_modes(system))
     assert counts[0] == counts[1]
