@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+from embedding.process import begin, leave, loading
 from embedding.timing import Watch, part, watching
 
 
@@ -21,12 +22,12 @@ def measured(scene: str, archive: str, overrides: tuple[str, ...], watch: Watch)
         SceneError: the scene cannot be read or modelled.
     """
     with watching(watch):
-        with part("import"):
+        with part("import"), loading():
             with part("ngsolve"):
                 import ngsolve  # noqa: F401
             from embedding.api import solve
             from embedding.archive import Recorder  # noqa: F401
-        with part("scene"):
+        with part("scene"), loading():
             from embedding.scene import load_scene
 
             stated = load_scene(scene, overrides)
@@ -46,6 +47,7 @@ def main(scene: str, archive: str, report: str, begun: str, *overrides: str) -> 
     """Write the report; returns the exit code."""
     from embedding.errors import EmbeddingError
 
+    begin()
     watch = Watch(time.time)
     watch.seconds["start of Python",] = time.time() - float(begun)
     try:
@@ -56,6 +58,7 @@ def main(scene: str, archive: str, report: str, begun: str, *overrides: str) -> 
     watch.charge()
     parts = [[list(names), seconds, watch.calls.get(names, 0)] for names, seconds in watch.seconds.items()]
     Path(report).write_text(json.dumps({**told, "parts": parts}))
+    leave()
     return 0
 
 

@@ -11,10 +11,10 @@ from cyclopts import App, Parameter
 from embedding import __version__
 from embedding.cli.bench import bench_app
 from embedding.cli.files import UsageError, check_output, default_archive, whole_file
-from embedding.cli.loading import loading
 from embedding.cli.output import print_json, print_solution, solution_summary
 from embedding.cli.plot import plot
 from embedding.cli.questions import balance, compare, integrals, probe
+from embedding.process import loading
 
 app = App(
     name="embedding",

@@ -1,4 +1,5 @@
-"""Imports and the end of a process without a look for garbage, which takes longer than the import of ngsolve.
+"""A process that does one thing and ends: imports and the end without a look for garbage, which takes as long as the
+import of ngsolve.
 
 What is imported stays, and what is left at the end goes with the process.
 """
@@ -8,6 +9,14 @@ from __future__ import annotations
 import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
+
+_own = False
+
+
+def begin() -> None:
+    """This process is ours: what it has imported need never be looked at again."""
+    global _own
+    _own = True
 
 
 @contextmanager
@@ -20,6 +29,8 @@ def loading() -> Iterator[None]:
     try:
         yield
     finally:
+        if _own:
+            gc.freeze()
         gc.enable()
 
 
