@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 from ngsolve import BND
 
-from embedding.coupling.elementwise import ElementwiseForm
 from embedding.coupling.linear import LinearSolverError
 from embedding.coupling.system import System
+from embedding.coupling.unknowns import assembled_in_batches
 from embedding.geometry.domain import Domain
 from embedding.geometry.ends import unknowns_on
 from embedding.shell.bending import CurveBending
@@ -121,7 +121,8 @@ class Enriched(Problem):
     def _split(self, straight: Callable[[Callable[[], None]], None]) -> dict[str, Scalars]:
         """What the shell's own residual changes, and that of its geometry; the state is left as it is."""
         system, carried = self.system, self.system.save()
-        curved = not self.domain.is_flat and not isinstance(system.form, ElementwiseForm)
+        batched = assembled_in_batches(self.domain, system.physics)  # those keep the geometry they were made with
+        curved = not self.domain.is_flat and not batched
         at_once: list[Any] = []
 
         def before() -> None:
@@ -130,7 +131,9 @@ class Enriched(Problem):
             at_once.extend((self._rows(), self.state.scalars()))
 
         if curved:
+            self._forget_potential()
             straight(before)
+            self._forget_potential()
         own = at_once[0] if curved else self._rows()
         self._solve_potential()
         start, solved = self.state.scalars(), system.save()
@@ -152,6 +155,11 @@ class Enriched(Problem):
         moved = self.state.scalars() if self.system.follow() else start
         self._put(state)
         return {name: moved[name] - start[name] for name in start}
+
+    def _forget_potential(self) -> None:
+        """Elements have other shapes from now on, also those that did not move."""
+        if self.system.potential is not None:
+            self.system.potential.forget()
 
     def _solve_potential(self) -> None:
         if self.system.potential is not None:
