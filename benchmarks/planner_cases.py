@@ -77,14 +77,21 @@ def _scene(shape: dict[str, Any], thickness: float, **rest: Any) -> Scene:
     return Scene.from_table({"shell": shell, **rest})
 
 
-def _inflated(shape: dict[str, Any], pressure: Callable[..., float]) -> Callable[[float], Scene]:
-    """A balloon or tube of some T/R under the pressure of membrane theory at a stretch of ``INFLATED``."""
+def _inflated(
+    shape: dict[str, Any], pressure: Callable[..., float], stretch: float = INFLATED
+) -> Callable[[float], Scene]:
+    """A balloon or tube of some T/R under the pressure of membrane theory at a ``stretch``."""
 
     def build(ratio: float) -> Scene:
-        loads = {"pressure_bottom": MU * pressure(INFLATED, ratio)}
+        loads = {"pressure_bottom": MU * pressure(stretch, ratio)}
         return _scene(shape, ratio * RADIUS, loads=loads, path=[{"steps": 3}])
 
     return build
+
+
+def _far_inflated(ratio: float) -> Scene:
+    """A tube whose bending is no longer what its thick wall has beyond the membrane."""
+    return _inflated(TUBE, cylinder.membrane_pressure, 1.5)(ratio)
 
 
 def _strip(ratio: float) -> Scene:
@@ -245,22 +252,25 @@ def _mean(name: str, parameter: str, values: tuple[float, ...], build: Callable[
     return Case("mean pressure", name, parameter, values, build, of, cheap, dear, lambda e: e.mean_pressure, None)
 
 
-def _thin(name: str, shape: dict[str, Any], module: Any) -> Case:
-    """A membrane against the exact thick wall, at the stretch that its pressure has there."""
+def _thin(
+    name: str, shape: dict[str, Any], module: Any, stretch: float = INFLATED, *, bending: bool = False
+) -> Case:
+    """A shell against the exact thick wall, at the stretch that its pressure has there."""
+    theory = "bending" if bending else "membrane"
 
     def exact(ratio: float) -> float:
-        pressure = module.membrane_pressure(INFLATED, ratio)
-        return bracketed_root(lambda stretch: module.thick_pressure(stretch, ratio) - pressure, 1.0, 1.3)
+        pressure = module.membrane_pressure(stretch, ratio)
+        return bracketed_root(lambda found: module.thick_pressure(found, ratio) - pressure, 1.0, 1.2 * stretch)
 
     def build(ratio: float) -> Scene:
-        return _inflated(shape, module.membrane_pressure)(ratio).with_overrides(["model.theory=membrane"])
+        return _inflated(shape, module.membrane_pressure, stretch)(ratio).with_overrides([f"model.theory={theory}"])
 
     def thin(plan: Plan) -> bool:
         return any((d.topic, d.choice) == ("thin shell", "thin") for d in plan.decisions)
 
     return Case(
         "thin shell", name, "T/R", (0.2, 0.05, 0.0125), build, "stretch", (), (),
-        lambda e: e.thin_shell(bending=False), thin, exact,
+        lambda e: e.thin_shell(bending=bending), thin, exact,
     )  # fmt: skip
 
 
@@ -289,8 +299,12 @@ def _coupling(name: str, parameter: str, values: tuple[float, ...], build: Calla
 CASES = (
     _thin("inflated sphere", SPHERE, sphere),
     _thin("inflated tube", TUBE, cylinder),
+    _thin("tube at a stretch of 1.5", TUBE, cylinder, 1.5),
+    _thin("tube that bends", TUBE, cylinder, bending=True),
+    _thin("bending tube at a stretch of 1.5", TUBE, cylinder, 1.5, bending=True),
     _bending("inflated sphere", "T/R", (0.2, 0.05, 0.0125), _inflated(SPHERE, sphere.membrane_pressure), "stretch"),
     _bending("inflated tube", "T/R", (0.2, 0.05, 0.0125), _inflated(TUBE, cylinder.membrane_pressure), "stretch"),
+    _bending("tube at a stretch of 1.5", "T/R", (0.2, 0.05, 0.0125), _far_inflated, "stretch"),
     _bending("stretched strip", "T/L", (0.05, 0.02, 0.005), _strip, "u_middle_y"),
     _bending("pressed disc", "T/R", (0.1, 0.02, 0.004), _pressed_disc, "u_middle_z"),
     _bending("tube with pinned ends", "T/R", (0.1, 0.02, 0.004), _pinned_tube, "stretch"),

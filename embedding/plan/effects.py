@@ -11,7 +11,7 @@ from functools import cached_property
 
 from embedding.plan.coefficients import BENT, CLOSED_FACES, MEMBRANE, ON_FACES, OWN_FIELD, ROBIN, SHEAR, TWICE
 from embedding.plan.loading import Loading
-from embedding.plan.response import Answer
+from embedding.plan.response import Answer, bending_share
 from embedding.scene import Scene
 from embedding.scene.checks_electrodes import one_conductor
 
@@ -33,9 +33,15 @@ class Effects:
         thinner = max(loading.answer.stretch, 1.0) ** (2 if loading.form == "cylinder" else 3)
         return loading.slenderness / thinner
 
+    @property
+    def thinness(self) -> float:
+        """Thickness now over the radius of curvature at rest; 0 for a flat shell."""
+        loading = self.loading
+        return loading.slenderness / max(loading.answer.stretch, 1.0) ** (1 if loading.form == "cylinder" else 2)
+
     def thin_shell(self, *, bending: bool) -> float:
         """What shell theory itself misses: of a curved wall that is stretched; transverse shear of one that is bent."""
-        curved = 0.0 if self.loading.radius is None else (BENT if bending else MEMBRANE) * self.slenderness**2
+        curved = (BENT if bending else MEMBRANE) * self.thinness**2
         sheared = bending and not self.shape.closed
         shear = SHEAR * (self.loading.thickness / self.shape.narrowest) ** 2 if sheared else 0.0
         return self.loading.response * curved + shear
@@ -57,6 +63,12 @@ class Effects:
         poisson = getattr(self.scene.shell.material, "poisson_ratio", 0.5)
         return float(2 / (1 - poisson))
 
+    @property
+    def electrodes_in_a_curved_wall(self) -> bool:
+        """Is there a field across a curved wall? What a thick one resists more, and the field in it pulls more, then
+        cancel for the most part: bending, which has the first alone, makes it worse (problems/dielectric_balloon)."""
+        return self.loading.radius is not None and self.field.film_voltage > 0.0
+
     @cached_property
     def bending(self) -> float | None:
         """What bending adds to the load that a membrane carries: of a flat one with hinged ends 2 D / (N a^2), of a
@@ -64,13 +76,16 @@ class Effects:
         loading = self.loading
         if loading.form == "flat" and loading.transverse == 0.0:
             return 0.0
+        if self.electrodes_in_a_curved_wall:
+            return None
         number = self.bending_number
         if number is None or math.isinf(number):
             return number
         if loading.form == "flat":
             return loading.response * 2 * number
         rims = 0.0 if self.shape.closed else number
-        return loading.response * (MEMBRANE * self.slenderness**2 + rims)
+        share = bending_share(loading.form, loading.answer.stretch)
+        return loading.response * (share * loading.slenderness**2 + rims)
 
     @property
     def mean_pressure(self) -> float:

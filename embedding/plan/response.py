@@ -17,6 +17,8 @@ from typing import Literal, NamedTuple
 Form = Literal["sphere", "cylinder", "flat"]
 LARGEST, STEP = 20.0, 1.01
 """How far and how finely an equilibrium is looked for; one closer to a limit point counts as beyond it."""
+LEAST = 0.02
+"""The least that bending counts as, over (T/R)^2: about what is left of it at large stretches."""
 FLAT_STRAIN, FLAT_TENSION = 0.2, 0.45
 """Of Hencky's membrane under q = p a / (Y T): mean stretch less 1, and tension at the apex over Y T, over q^(2/3). From
 his series: 0.189 and 0.461 for a Poisson ratio of 0.5, 0.233 and 0.431 for 0.3."""
@@ -55,6 +57,27 @@ def answer(form: Form, pressure: float, pull: float) -> Answer:
     slope = (excess(stretch + step) - excess(stretch - step)) / (2 * step)
     load = pressure * stretch**2 + pull
     return Answer(stretch, abs(load / (stretch * slope)))
+
+
+def bending_share(form: Form, stretch: float) -> float:
+    """What bending adds to the load of a stretched sphere or tube of neo-Hooke, over (T/R)^2: the derivative of its
+    bending energy by that of the membrane's, of the theory page "Bending",
+
+    * sphere    W_b = mu T^3 / (2 R^2) l^-4 (1 - l^-3)^2,   W_s = mu T / 2 (2 l^2 + l^-4 - 3)
+    * cylinder  W_b = mu T^3 / (6 R^2) l^-2 (1 - l^-2)^2,   W_s = mu T / 2 (l^2 + l^-2 - 2)
+
+    3/4 and 1/3 at rest. It changes its sign on the way, where it counts as ``LEAST``.
+    """
+    sphere = form == "sphere"
+    if abs(stretch - 1.0) < 1e-4:
+        return 3 / 4 if sphere else 1 / 3
+    n = 3 if sphere else 2
+    turned = 1 - stretch**-n
+    power = -4 if sphere else -2
+    slope = power * stretch ** (power - 1) * turned**2 + stretch**power * 2 * turned * n * stretch ** (-n - 1)
+    bent = slope / (2 if sphere else 6)
+    stretched = 2 * (stretch - stretch**-5) if sphere else stretch - stretch**-3
+    return max(abs(bent / stretched), LEAST)
 
 
 def _first_root(function: Callable[[float], float]) -> float | None:

@@ -83,7 +83,8 @@ class Neglected:
     def thickness(self) -> float:
         """What shell theory itself leaves out of the load of a curved wall."""
         bending = self.problem.plan.bending
-        return self.response * (BENT if bending else MEMBRANE) * self.slenderness**2
+        at_rest = self.slenderness * self.scalars["stretch"]  # over the radius that the shell had
+        return self.response * (BENT if bending else MEMBRANE) * at_rest**2
 
     @cached_property
     def planned(self) -> Effects:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
-from embedding.plan.response import BEYOND, FLAT_STRAIN, FLAT_TENSION, answer
+from embedding.plan.response import BEYOND, FLAT_STRAIN, FLAT_TENSION, Form, answer, bending_share
 from problems.exact import cylinder, sphere
 from problems.exact.charged_balloon import ChargedBalloon
 from problems.exact.hencky import hencky
@@ -33,6 +35,16 @@ def test_charged_sphere(voltage: float) -> None:
     balloon = ChargedBalloon(1.0, 1.0, theory="membrane")
     found = answer("sphere", 0.0, 0.5 * voltage**2)
     assert found.stretch == pytest.approx(balloon.stretch(voltage), rel=1e-9)
+
+
+@pytest.mark.parametrize("stretch", [1.05, 1.2, 1.4])
+@pytest.mark.parametrize(("form", "at_rest", "thick"), [("sphere", 3 / 4, sphere), ("cylinder", 1 / 3, cylinder)])
+def test_what_bending_adds(form: Form, at_rest: float, thick: Any, stretch: float) -> None:
+    """Most of what the exact thick wall has beyond the membrane at small stretches; that of a tube shears as well."""
+    assert bending_share(form, 1.0) == at_rest
+    assert bending_share(form, 1.001) == pytest.approx(at_rest, rel=0.02)
+    exact = (thick.bending_pressure(stretch, THIN) / thick.membrane_pressure(stretch, THIN) - 1) / THIN**2
+    assert 0.0 < bending_share(form, stretch) < 1.2 * abs(exact)
 
 
 def test_at_the_limit_point() -> None:
