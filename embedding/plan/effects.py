@@ -64,10 +64,12 @@ class Effects:
         return float(2 / (1 - poisson))
 
     @property
-    def electrodes_in_a_curved_wall(self) -> bool:
-        """Is there a field across a curved wall? What a thick one resists more, and the field in it pulls more, then
-        cancel for the most part: bending, which has the first alone, makes it worse (problems/dielectric_balloon)."""
-        return self.loading.radius is not None and self.field.film_voltage > 0.0
+    def walls_cancel(self) -> bool:
+        """Is the load on a curved wall for the most part that of electrodes? What a thick wall resists more, and what
+        the field on or in it pulls more, then cancel for the most part: bending, which has the first alone, makes it
+        worse (problems/charged_balloon, problems/dielectric_balloon)."""
+        driven = bool(self.scene.faces.electrodes) and self.loading.field_share > 0.5
+        return self.loading.radius is not None and driven
 
     @cached_property
     def bending(self) -> float | None:
@@ -76,7 +78,7 @@ class Effects:
         loading = self.loading
         if loading.form == "flat" and loading.transverse == 0.0:
             return 0.0
-        if self.electrodes_in_a_curved_wall:
+        if self.walls_cancel:
             return None
         number = self.bending_number
         if number is None or math.isinf(number):

@@ -102,10 +102,10 @@ def _of_the_shell(problem: Problem, neglected: Neglected) -> Iterator[Assumption
         return  # it is held
     theory = "bending" if plan.bending else "membrane"
     if neglected.slenderness > 0.0:
-        better = "" if plan.bending or neglected.planned.electrodes_in_a_curved_wall else "bending"
+        better = "" if plan.bending or neglected.planned.walls_cancel else "bending"
         sentence = f"a wall of thickness over radius {neglected.slenderness:.2g} (deformed) is not a thin shell"
         yield _assumption(problem, "thin shell", theory, neglected.thickness, sentence, better)
-    bends = not neglected.planned.electrodes_in_a_curved_wall
+    bends = not neglected.planned.walls_cancel
     if not plan.bending and bends and problem.domain.sizes.order > 1:
         sentence = "bending stores this against what carries the load"
         yield _assumption(problem, "shell theory", theory, neglected.bending, sentence, "bending")

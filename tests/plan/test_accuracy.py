@@ -9,6 +9,8 @@ import pytest
 from embedding import Scene, explain
 from embedding.plan import Plan
 from embedding.plan.allowance import SAFE, UNSTATED
+from embedding.solving import run
+from problems import charged_balloon
 
 MU, RADIUS = 1e5, 0.02
 SHELL: dict[str, Any] = {
@@ -119,3 +121,20 @@ def test_numbers_are_printed() -> None:
     found = decided(plan, "shell theory")
     assert f"{found.number:.1e} <= {found.threshold:.1e}" in line
     assert f"[{found.measure}]" in line
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.05])
+def test_bending_makes_a_charged_balloon_worse(ratio: float) -> None:
+    """Against the exact thick sphere: what its wall resists more and what the field on its face pulls more cancel, and
+    the planner leaves the theory alone. Under pressure it does not."""
+    thickness, *voltages = charged_balloon.at(ratio, 1.1)
+    stated = charged_balloon.scene(thickness, *voltages, "path=[{steps=3}]")
+    off = {}
+    for theory in ("membrane", "bending"):
+        solution = run(stated.with_overrides([f"model.theory={theory}"]))
+        off[theory] = abs((solution["stretch"][-1] - 1) / (charged_balloon.reference(solution)[-1] - 1) - 1)
+    assert off["membrane"] < 0.3 * off["bending"]
+    for accuracy in (1e-2, 1e-4):
+        assert not explain(stated.with_overrides([f"accuracy={accuracy}"])).bending
+    blown = ["accuracy=1e-4", "path=[{steps=3, field=0.0}]", "loads.pressure_bottom=500 Pa"]
+    assert explain(stated.with_overrides(blown)).bending
