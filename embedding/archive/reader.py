@@ -38,7 +38,7 @@ from embedding.archive.verification import verify
 from embedding.errors import ArchiveError
 from embedding.scene import Scales, Scene
 from embedding.solving.events import Iteration, StepRecord
-from embedding.solving.solution import Assumption, CriticalPoint
+from embedding.solving.solution import Assumption, Check, CriticalPoint
 
 __all__ = [
     "Archive",
@@ -143,6 +143,11 @@ class Archive:
         """What the plan left out, checked on the last step, known once the run has ended."""
         found = self._end.get("assumptions", ())
         return tuple(Assumption(**{**one, "rung": tuple(one["rung"])}) for one in found)
+
+    @property
+    def health(self) -> tuple[Check, ...]:
+        """Whether mesh and equations were fit to give an answer, known once the run has ended well."""
+        return tuple(Check(**one) for one in self._end.get("health", ()))
 
     @property
     def cost(self) -> ArchivedCost | None:

@@ -113,6 +113,7 @@ class Recorder(Listener):
                 "errors": {name: asdict(error) for name, error in solution.errors.items()},
                 "cost": asdict(solution.cost),
                 "assumptions": [asdict(assumption) for assumption in solution.assumptions],
+                "health": [asdict(check) for check in solution.health],
                 "cuts": self._cuts,
                 "start": solution.start,
                 "critical_points": [{**vars(point), "mode": point.mode.tolist()} for point in solution.critical_points],

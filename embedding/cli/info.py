@@ -14,6 +14,7 @@ from embedding.cli.output import (
     cost_line,
     critical_rows,
     error_line,
+    health_rows,
     number,
     print_rows,
     without_noise,
@@ -41,6 +42,7 @@ def archive_summary(archive: Archive) -> dict[str, Any]:
         "result": asdict(archive.result),
         "critical_points": [{**vars(point), "mode": None} for point in archive.critical_points],
         "estimated_error": None if archive.error is None else asdict(archive.error),
+        "health": [asdict(check) for check in archive.health],
         "errors": {name: asdict(error) for name, error in archive.errors.items()},
         "assumptions": [asdict(assumption) for assumption in archive.assumptions],
         "cost": None if archive.cost is None else asdict(archive.cost),
@@ -67,7 +69,7 @@ def print_archive(archive: Archive) -> None:
     if archive.error is not None:
         rows.append(("estimated error", error_line(archive.error)))
         rows += _accuracy(archive, archive.error)
-    rows += assumption_rows(archive.assumptions)
+    rows += assumption_rows(archive.assumptions) + health_rows(archive.health, all_of_them=True)
     if archive.cost is not None:
         rows.append(("cost", cost_line(archive.cost)))
     rows += critical_rows(archive.critical_points)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import sys
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from embedding.archive.records import ArchivedCost, ArchivedError
-    from embedding.solving.solution import Assumption, Cost, CriticalPoint, ErrorEstimate, Solution
+    from embedding.solving.solution import Assumption, Check, Cost, CriticalPoint, ErrorEstimate, Solution
 
 NOISE = 1e-12
 SMALL = 0.01
@@ -134,6 +135,26 @@ def attempt_rows(solution: Solution) -> list[tuple[str, str]]:
     return rows
 
 
+def health_rows(checks: Sequence[Check], *, all_of_them: bool) -> list[tuple[str, str]]:
+    """Whether the solution is sound: a row for each check, or for each that is not good and one for the rest."""
+    rows = []
+    for one in checks:
+        if all_of_them or not one.good:
+            should = f", should be {one.should_be}" if one.should_be else ""
+            told = f"{_verdict(one.good)}, {number(one.value, one.unit)}{should}: {one.sentence}"
+            rows.append((f"health: {one.topic}", told))
+    if checks and not rows:
+        rows.append(("health", f"{_verdict(True)}, all {len(checks)} checks"))
+    return rows
+
+
+def _verdict(good: bool) -> str:
+    """A word, green or red on a terminal."""
+    word = "good" if good else "BAD"
+    plain = not sys.stdout.isatty() or "NO_COLOR" in os.environ
+    return word if plain else f"\x1b[{32 if good else 31}m{word}\x1b[0m"
+
+
 def solution_summary(solution: Solution) -> dict[str, Any]:
     """A solution as plain data: result, final scalars, error estimate and cost."""
     last = solution.steps[-1] if solution.steps else None
@@ -147,6 +168,7 @@ def solution_summary(solution: Solution) -> dict[str, Any]:
         "estimated_error": None if solution.error is None else asdict(solution.error),
         "errors": {name: asdict(error) for name, error in solution.errors.items()},
         "assumptions": [asdict(assumption) for assumption in solution.assumptions],
+        "health": [asdict(check) for check in solution.health],
         "attempts": [asdict(attempt) for attempt in solution.attempts],
         "cost": asdict(solution.cost),
         "archive": solution.archive,
@@ -167,6 +189,7 @@ def print_solution(solution: Solution, picture: Path | None) -> None:
     if solution.error is not None:
         rows.append(("estimated error", error_line(solution.error)))
     rows += attempt_rows(solution) + assumption_rows(solution.assumptions)
+    rows += health_rows(solution.health, all_of_them=False)
     rows.append(("cost", cost_line(solution.cost)))
     if solution.archive is not None:
         rows.append(("archive", str(solution.archive)))

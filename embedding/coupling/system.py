@@ -145,6 +145,11 @@ class System:
         )
 
     @property
+    def free(self) -> Mask:
+        """Marks the free unknowns of the joint system."""
+        return self._solver.mask
+
+    @property
     def free_count(self) -> int:
         """Number of free unknowns of the joint system."""
         return int(self._solver.mask.sum())

@@ -19,13 +19,14 @@ from embedding.solving.assumptions import check_assumptions
 from embedding.solving.continuation import Condition, at_parameter
 from embedding.solving.estimate import default_quantity, estimate_errors
 from embedding.solving.events import Listener
+from embedding.solving.health import check_health
 from embedding.solving.memory import Kept
 from embedding.solving.path import DEFAULT_STEPS, Target, followed, stage_target
 from embedding.solving.places import displacement_row
 from embedding.solving.ramp import Ramp
 from embedding.solving.result import Result
 from embedding.solving.session import Session
-from embedding.solving.solution import Cost, ErrorEstimate, Solution
+from embedding.solving.solution import Check, Cost, ErrorEstimate, Solution
 from embedding.timing import part
 
 
@@ -60,14 +61,16 @@ class Run(Session):
         """Walk the path to its end or to the first step that cannot be taken."""
         for listener in self.listeners:
             listener.started(self.problem)
-        result, errors = Result.CONVERGED, dict[str, ErrorEstimate]()
+        result, errors, health = Result.CONVERGED, dict[str, ErrorEstimate](), tuple[Check, ...]()
         try:
             for number in range(self.stage, len(self.scene.path)):
                 result = self._stage(number)
                 if not result.ok:
                     break
             with part("estimate"):
-                errors = estimate_errors(self.problem, self.at, self.steps) if result.ok else {}
+                if result.ok:
+                    estimates = estimate_errors(self.problem, self.at, self.steps)
+                    errors, health = estimates.errors, check_health(self.problem, estimates)
         except KeyboardInterrupt:
             result, errors = Result.INTERRUPTED, {}
         message = result.advice if result.ok else self.told(result)
@@ -77,7 +80,7 @@ class Run(Session):
         solution = Solution(
             self.scene, self.problem.plan, self.problem.scales, result, message, tuple(self.steps), error,
             self._cost(), errors=errors, critical_points=tuple(self.critical), iterations=self.iterations,
-            start=self.start, assumptions=assumptions,
+            start=self.start, assumptions=assumptions, health=health,
         )  # fmt: skip
         for listener in self.listeners:
             listener.finished(solution)

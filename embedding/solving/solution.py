@@ -55,6 +55,19 @@ class Assumption:
 
 
 @dataclass(frozen=True)
+class Check:
+    """One number that tells whether a solution is sound: its ``value`` in a ``unit`` ("" for a plain number), what it
+    should be as a text, whether it is ``good``, and what it is."""
+
+    topic: str
+    value: float
+    unit: str
+    should_be: str
+    good: bool
+    sentence: str
+
+
+@dataclass(frozen=True)
 class Cost:
     """What the solve cost: seconds, peak memory of the process in bytes, unknowns by name, seconds by part."""
 
@@ -104,6 +117,7 @@ class Solution:
     those that ``scene.accuracy`` names, or one that fits the scene.
 
     ``iterations`` counts every Newton step, those of failed attempts and of looking for critical points included.
+    ``health`` says whether mesh and equations were fit to give an answer.
     ``attempts`` are the solves that led to a stated accuracy, this one the last.
     ``start`` is "rest", "neighbour" where the state of another run was started from, or "rest: ..." with the reason why
     it could not be. ``assumptions`` are what the plan left out, checked on the last step.
@@ -122,6 +136,7 @@ class Solution:
     critical_points: tuple[CriticalPoint, ...] = ()
     iterations: int = 0
     start: str = "rest"
+    health: tuple[Check, ...] = ()
     attempts: tuple[Attempt, ...] = ()
     assumptions: tuple[Assumption, ...] = ()
 

@@ -225,6 +225,7 @@ def solution(steps: Sequence[StepRecord], result: str = "CONVERGED") -> Any:
         steps=tuple(steps),
         assumptions=(),
         errors={},
+        health=(),
         attempts=(),
         error=Estimate(),
         cost=Cost(),

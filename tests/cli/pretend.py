@@ -59,6 +59,7 @@ def solution(scene: Any, archive: Path | None, steps: Sequence[StepRecord], resu
         critical_points=(CRITICAL,),
         assumptions=(),
         errors={},
+        health=(),
         attempts=(),
         error=Estimate(value=2e-4, quantity="stretch", method="one order lower", parts={"discretisation": 2e-4}),
         cost=Cost(

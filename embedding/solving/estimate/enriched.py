@@ -35,6 +35,8 @@ than ``GROWING`` times that before gives them up."""
 LEAST_PART = 0.2
 """Smallest part of the first residual, of a shell that bends, that is taken away at once."""
 
+ROUNDS = 4
+"""Steps of the power method."""
 NUDGED = 1.0 + 1e-5
 """Factor of the loads by which responses are measured."""
 
@@ -51,7 +53,7 @@ class Changes:
 
 class Enriched(Problem):
     """The same problem with the fields of ``domain``, of one order more on the same elements, started from the present
-    state."""
+    state. ``loads`` is the norm of all nodal loads, dimensionless, once responses are known."""
 
     def __init__(self, problem: Problem, domain: Domain) -> None:
         self.scene, self.plan, self.scales = problem.scene, problem.plan, problem.scales
@@ -67,6 +69,7 @@ class Enriched(Problem):
         self.system.ambient_as_in(problem.system)
         self.system.restore(self.system.save())  # the state did not get here by Newton steps
         self.state = State(self)
+        self.loads = 0.0
 
     def _carry(self, name: str, problem: Problem) -> None:
         richer, present = self.system.unknowns.field(name), problem.system.unknowns.field(name)
@@ -231,6 +234,8 @@ class Enriched(Problem):
                 continue
             load = self._forces(target, *factors)
             load.data -= present
+            if name == "all":
+                self.loads = float(np.linalg.norm(load.FV().NumPy()[self.system.free])) / (NUDGED - 1.0)
             step = system.solve(load)
             system.unknowns.state.vec.data -= step
             if not system.follow():
@@ -244,6 +249,31 @@ class Enriched(Problem):
                 found[name][f"pressure_{face}"] -= pressure if face[0] in self.plan.opened else 0.0
             self._put(kept)
         return found
+
+    def condition(self) -> float:
+        """Largest over smallest eigenvalue of the tangent at hand, by a few steps of the power method from either end.
+
+        Raises:
+            LinearSolverError: the tangent is singular.
+        """
+        system, generator = self.system, np.random.default_rng(1)
+        start = generator.standard_normal(system.unknowns.space.ndof)
+        sizes = []
+        for apply in (system.solve, self._times):
+            vector = system.unknowns.state.vec.CreateVector()
+            vector.FV().NumPy()[:] = start
+            for _ in range(ROUNDS):
+                vector.data = (1.0 / float(np.linalg.norm(vector.FV().NumPy()))) * vector
+                vector = apply(vector)
+            sizes.append(float(np.linalg.norm(vector.FV().NumPy())))
+        return math.prod(sizes)
+
+    def _times(self, vector: Any) -> Any:
+        """The assembled tangent times a vector, on its free unknowns."""
+        product = vector.CreateVector()
+        product.data = self.system.form.mat * vector
+        product.FV().NumPy()[~self.system.free] = 0.0
+        return product
 
     def _forces(self, target: Target, mechanical: float, field: float) -> Any:
         """Residual at the loads times these factors; field forces go with the square of the field."""

@@ -23,6 +23,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from embedding.geometry.outline import SHARP_ANGLE
 from embedding.geometry.remeshing import one_order_more
@@ -54,19 +55,35 @@ of what was measured on exact spheres of three regions, from mu_r = 2 to 1e6 (te
 Tubes are exact (test_tubes_in_a_field)."""
 
 
-def estimate_errors(problem: Problem, target: Target, steps: Sequence[StepRecord]) -> dict[str, ErrorEstimate]:
-    """Error estimates by scalar at the present, converged state, the last of ``steps``."""
+@dataclass(frozen=True)
+class Estimates:
+    """The ``errors`` by scalar, and what came with them: |d ln (displacement) / d ln (load)| as ``response`` and the
+    ``condition`` of the tangent, None where they are not known, and the norm of all nodal ``loads``, dimensionless."""
+
+    errors: dict[str, ErrorEstimate]
+    response: float | None
+    condition: float | None
+    loads: float
+
+
+def estimate_errors(problem: Problem, target: Target, steps: Sequence[StepRecord]) -> Estimates:
+    """Error estimates of all scalars at the present, converged state, the last of ``steps``."""
     scalars = {name: value for name, value in steps[-1].scalars.items() if name not in COUNTED and value != 0.0}
     with one_order_more(problem.domain) as domain:
         richer = Enriched(problem, domain)
         changes = richer.improve(target, scalars, _straight(problem))
-        responses = {} if changes is None or richer.held else richer.responses(target)
+        solved = changes is not None and not richer.held
+        responses = richer.responses(target) if solved else {}
+        condition = richer.condition() if solved else None
     sources = _discretisation(problem, changes, scalars)
     sources |= _theory(problem, scalars, responses) | _field(problem, scalars, responses, State(problem))
     sources["solver"] = {name: _last_update(problem, steps[-1]) for name in scalars if _moves(name)}
     method = _method(problem, changes)
     whole = {} if changes is None else {n: _beyond(problem) * change for n, change in changes.whole.items()}
-    return {name: _sum(name, value, sources, whole, method) for name, value in scalars.items()}
+    errors = {name: _sum(name, value, sources, whole, method) for name, value in scalars.items()}
+    moved, answer = scalars.get("displacement", 0.0), responses.get("all", {}).get("displacement")
+    response = None if answer is None or moved == 0.0 else abs(answer / moved)
+    return Estimates(errors, response, condition, richer.loads)
 
 
 def default_quantity(problem: Problem, scalars: Scalars, target: Target) -> str:

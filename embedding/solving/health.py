@@ -1,0 +1,112 @@
+"""How sound a solution is: numbers to look at before it is believed, each with what it should be.
+
+An error estimate says how far the answer is off; these say whether the mesh and the equations were fit to give one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from ngsolve import BND, VOL, IfPos
+
+from embedding.geometry.positions import reference_position
+from embedding.solving.estimate import Estimates
+from embedding.solving.problem import Problem
+from embedding.solving.remeshing import WORN
+from embedding.solving.solution import Check
+from embedding.solving.state import State
+
+Floats = npt.NDArray[np.float64]
+UNBALANCED = 1e-6
+"""Nodal forces out of balance over those of the loads."""
+FLATTENED = 0.05
+"""Quality of an element (1 if regular) from which on its matrix and its interpolation suffer."""
+NEAR_LIMIT = 10.0
+"""By what factor a relative change of the load may come back in the displacement."""
+SINGULAR = 1e14
+"""Condition of the tangent beyond which rounding reaches the answer's third digit, after one step of refinement."""
+
+
+def check_health(problem: Problem, estimates: Estimates) -> tuple[Check, ...]:
+    """All checks at the present, converged state, of which ``estimates`` are known."""
+    return tuple(_checks(problem, estimates))
+
+
+def _checks(problem: Problem, estimates: Estimates) -> Iterator[Check]:
+    response, condition = estimates.response, estimates.condition
+    yield _residual(problem, estimates.loads)
+    if problem.system.motions:
+        value, told = problem.system.min_jacobian, "smallest Jacobian of the space that moves with the shell"
+        yield Check("space", value, "", f">= {WORN:g}", value >= WORN, told)
+    worst = quality(problem)
+    yield Check("elements", worst, "", f">= {FLATTENED:g}", worst >= FLATTENED, "quality of the flattest, 1 if regular")
+    if response is not None:
+        told = "by this factor a change of the load comes back in the displacement; infinite at a limit point"
+        yield Check("limit point", response, "", f"<= {NEAR_LIMIT:g}", response <= NEAR_LIMIT, told)
+    if problem.plan.bending:
+        yield from of_bending(problem)
+    if condition is not None:
+        told = "largest over smallest eigenvalue of the tangent, to its order"
+        yield Check("condition", condition, "", f"<= {SINGULAR:g}", condition <= SINGULAR, told)
+
+
+def _residual(problem: Problem, loads: float) -> Check:
+    """The forces that are not in balance, in N (plane strain: N/m), against the loads, or the stiffness without any."""
+    system, scales = problem.system, problem.scales
+    free = system.unknowns.trace.free
+    rows = system.residual().FV().NumPy()[system.unknowns.range("u")][free]
+    lengths = 1 if problem.reduction.name == "plane-strain" else 2
+    size = float(np.linalg.norm(rows))
+    natural = problem.scene.shell.thickest / scales.length
+    unit = "N/m" if lengths == 1 else "N"
+    allowed = UNBALANCED * (loads or natural) * scales.stress * scales.length**lengths
+    value = size * scales.stress * scales.length**lengths
+    return Check("residual", value, unit, f"<= {allowed:.1g} {unit}", value <= allowed, "nodal forces out of balance")
+
+
+def of_bending(problem: Problem) -> Iterator[Check]:
+    """Regions in compression, and the layers along edges in which a curved shell bends."""
+    state, domain = State(problem), problem.domain
+    share = domain.shell_integral(IfPos(state.min_principal_stress, 0.0, 1.0)) / domain.shell_integral(1.0)
+    told = "part of the area in compression, which bending stiffness carries: finer waves than elements are not seen"
+    yield Check("compression", share, "", "", True, told)
+    if domain.is_flat or not math.isfinite(domain.curvature_radius) or not domain.rims:
+        return
+    layer = math.sqrt(domain.curvature_radius * problem.scene.shell.thickest / problem.scales.length)
+    size = max(domain.sizes.along(edge) for edge in domain.rims) / domain.sizes.order
+    told = "element along edges, over its order, against the bending layer sqrt(R T)"
+    yield Check("bending layer", size / layer, "", "<= 1", size <= layer, told)
+
+
+def quality(problem: Problem) -> float:
+    """Of the flattest element: volume over that of the regular one with the same edges, root mean square."""
+    mesh = problem.mesh
+    kinds = [VOL, BND] if problem.domain.has_ambient else [BND]
+    found = [quality_of(_corners(mesh, kind)) for kind in kinds]
+    return min((float(values.min()) for values in found if len(values)), default=1.0)
+
+
+def _corners(mesh: Any, kind: Any) -> Floats:
+    """Corners (n, k, d) of all simplices of a kind."""
+    simplices = (e for e in mesh.Elements(kind) if len(e.vertices) in (2, 3, 4) and len(e.vertices) <= mesh.dim + 1)
+    corners = [[reference_position(mesh, v) for v in e.vertices] for e in simplices]
+    sizes = {len(corner) for corner in corners}
+    return np.array([corner for corner in corners if len(corner) == max(sizes)]) if corners else np.zeros((0, 2, 2))
+
+
+def quality_of(corners: Floats) -> Floats:
+    """The same (n,) of simplices with ``corners`` (n, k, d)."""
+    count, k = corners.shape[:2]
+    if k < 3:  # a segment has no shape
+        return np.ones(count)
+    sides = corners[:, 1:] - corners[:, :1]
+    gram = np.einsum("nid,njd->nij", sides, sides)
+    volume = np.sqrt(np.maximum(np.linalg.det(gram), 0.0))
+    pairs = [(i, j) for i in range(k) for j in range(i)]
+    squares = np.mean([((corners[:, i] - corners[:, j]) ** 2).sum(axis=1) for i, j in pairs], axis=0)
+    regular = math.sqrt(3) / 2 if k == 3 else 1 / math.sqrt(2)
+    return np.asarray(volume / (regular * squares ** ((k - 1) / 2)))

@@ -1,0 +1,83 @@
+"""Health checks: good where all is well, bad where a cause was planted, and true."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from embedding import Solution, load_scene, open_archive, solve
+from embedding.cli import main
+from embedding.plan import explain
+from embedding.solving import health
+from embedding.solving.problem import Problem
+from problems import charged_balloon, circular_membrane, grounded_balloon, half_cylinder, slit_annulus
+
+
+def named(solution: Solution, topic: str) -> health.Check:
+    return next(one for one in solution.health if one.topic == topic)
+
+
+def test_all_is_well_in_a_charged_balloon() -> None:
+    solution = charged_balloon.run("path=[{steps=3}]")
+    assert [one.topic for one in solution.health] == ["residual", "space", "elements", "limit point", "condition"]
+    assert all(one.good for one in solution.health)
+    assert named(solution, "residual").unit == "N"
+    assert named(solution, "space").value == solution["min_jacobian"][-1]
+
+
+def test_near_a_limit_point_the_response_grows_without_end() -> None:
+    """The pull-in voltage of a balloon in a grounded sphere: like the inverse root of the distance to it."""
+    limit = grounded_balloon.exact(grounded_balloon.scene()).pull_in()
+    assert limit is not None
+    found = []
+    for part in (0.9, 0.99, 0.998):
+        voltage = grounded_balloon.at_voltage(part * limit.load)
+        found.append(named(grounded_balloon.run(*voltage, "path=[{steps=8}]"), "limit point"))
+    first, second, third = (one.value for one in found)
+    assert second / first > 1.5 and third / second > 1.5
+    assert found[0].good and not found[-1].good
+
+
+def test_the_response_is_that_of_the_displacement() -> None:
+    """|d ln u / d ln p| by two solves."""
+    low, high = (solve(load_scene(circular_membrane.SCENE, (f"path=[{{mechanical={p}}}]",))) for p in (0.999, 1.001))
+    slope = math.log(high["displacement"][-1] / low["displacement"][-1]) / math.log(1.001 / 0.999)
+    middle = solve(load_scene(circular_membrane.SCENE, ("path=[{}]",)))
+    assert named(middle, "limit point").value == pytest.approx(slope, rel=1e-3)
+
+
+def test_flat_elements_are_found() -> None:
+    """Long thin elements along the rim of a plate."""
+    problem = Problem(scene := load_scene(slit_annulus.SCENE), explain(scene))
+    assert health.quality(problem) > 0.5
+    regular = np.array([[[0.0, 0.0], [1.0, 0.0], [0.5, math.sqrt(0.75)]]])
+    thin = regular * [1.0, 0.01]
+    corner = np.array([[[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]]])
+    assert health.quality_of(regular)[0] == pytest.approx(1.0)
+    assert health.quality_of(corner)[0] == pytest.approx(1.0)
+    assert health.quality_of(thin)[0] < 0.03
+
+
+def test_a_bending_layer_that_elements_do_not_see() -> None:
+    """At the clamp of a cylinder: sqrt(R T) falls to a tenth as the wall becomes a hundred times thinner."""
+
+    def layer(*changes: str) -> health.Check:
+        problem = Problem(stated := load_scene(half_cylinder.SCENE, changes), explain(stated))
+        return next(one for one in health.of_bending(problem) if one.topic == "bending layer")
+
+    thick, thin = layer(), layer("shell.thickness=0.03 m")
+    assert thick.good and not thin.good
+    assert thin.value == pytest.approx(10 * thick.value, rel=1e-9)
+
+
+def test_info_tells_all_of_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    archive = tmp_path / "disc.vtkhdf"
+    solution = solve(load_scene(circular_membrane.SCENE, ("path=[{}]",)), archive=archive)
+    assert open_archive(archive).health == solution.health
+    assert main(["info", str(archive)]) == 0
+    told = capsys.readouterr().out
+    assert all(f"health: {one.topic}" in told for one in solution.health)
+    assert "good, " in told and "\x1b" not in told
