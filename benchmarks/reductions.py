@@ -49,13 +49,13 @@ TRIED: dict[str, tuple[Mesh, ...]] = {
     "3d, between three mirror planes": (Mesh(2, 0.008, 1), Mesh(2, 0.01, 2), Mesh(2, 0.02, 2)),
     WHOLE: (Mesh(2, 0.008, 3),),
 }
+"""Meshes to choose from; the cheapest one within 1e-3 counts. On coarser ones the whole sphere, which nothing holds
+symmetric, wrinkles on its way and takes many small steps."""
 FINER: dict[str, tuple[Mesh, ...]] = {
     "axisymmetric": (Mesh(3, 0.004, 1), Mesh(4, 0.006, 1)),
     "3d, between three mirror planes": (Mesh(3, 0.008, 2),),
 }
 """For the permeable sphere, whose largest stretch is at a pole."""
-"""Meshes to choose from; the cheapest one within 1e-3 counts. On coarser ones the whole sphere, which nothing holds
-symmetric, wrinkles on its way and takes many small steps."""
 PROBLEMS = {"charged_balloon": 1, "grounded_balloon": 1, "permeable_sphere": 2}
 """Problems of spheres, with their stages."""
 

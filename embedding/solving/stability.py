@@ -8,7 +8,7 @@ negative eigenvalues. Some of those belong to every stable state and do not coun
 * one for each bending moment that is not eliminated before;
 * one for each free potential, whose energy has the other sign: eliminated, the field follows the shell's motion.
 
-Of a membrane with few unknowns the inverse serves instead, whose factors are at hand: its block of the displacements
+Of a shell with few unknowns the inverse serves instead, whose factors are at hand: its block of the displacements
 is the inverse of the stiffness that is left when all else is eliminated, on the motions that the multipliers allow.
 
 What is left is the number of unstable modes among the motions that the multipliers allow, voltages and charges being
@@ -34,11 +34,12 @@ SHIFT = 1e-13
 SMALL = 1000
 """Rows of a matrix whose eigenvalues may be computed."""
 
-PLAIN = frozenset({"y_t", "y_b", "tau_t", "tau_b", "phi", "jump"})
+PLAIN = frozenset({"y_t", "y_b", "tau_t", "tau_b", "phi", "jump", "moment"})
 """Unknowns that may be beside the displacement there: eliminated, they bring the eigenvalues of every stable state."""
 
-APART = 1e3
-"""Eigenvalues of the inverse that vanish are smaller than all others by more than this."""
+APART, CLEAR = 1e3, 1e-9
+"""Eigenvalues of the inverse that vanish are smaller than all others by more than the first; those, over the largest,
+are above the second, or their signs might be rounding, as they might below what the inverse lacks in symmetry."""
 
 MOST = 20_000
 """Unknowns of a coupled problem up to which modes are counted: in three dimensions one count costs two or three
@@ -82,9 +83,11 @@ def _unstable_by_inverse(system: System) -> int | None:
     values = np.linalg.eigvalsh((inverse + inverse.T) / 2)
     values = values[np.argsort(np.abs(values))]
     vanishing, rest = np.split(values, [len(unknowns.rigid) + system.free_in("pressure")])
-    if not len(rest) or not APART * np.abs(vanishing).max(initial=0.0) < abs(rest[0]):
+    if not len(rest):
         return None
-    return int((rest < 0).sum())
+    rounding = len(values) * float(np.abs(inverse - inverse.T).max())
+    unclear = max(APART * np.abs(vanishing).max(initial=0.0), CLEAR * abs(rest[-1]), rounding)
+    return int((rest < 0).sum()) if abs(rest[0]) > unclear else None
 
 
 def negative_eigenvalues(matrix: sparse.csc_array, border: Mask, *, shift: float = 0.0, less: int = 0) -> int | None:
@@ -93,7 +96,7 @@ def negative_eigenvalues(matrix: sparse.csc_array, border: Mask, *, shift: float
     Rows in ``border``, few and dense, are eliminated last. A pivot that vanishes is no eigenvalue that does: then those
     of a small matrix are computed, and for a large one the answer is None.
     """
-    from scipy import sparse  # slow to load, and a membrane with few unknowns does without
+    from scipy import sparse  # slow to load, and a shell with few unknowns does without
 
     inner, outer = np.flatnonzero(~border), np.flatnonzero(border)
     core = sparse.csc_array(matrix[inner][:, inner])
