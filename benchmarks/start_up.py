@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+import resource
 import subprocess
 import sys
 import time
@@ -43,26 +44,26 @@ def environment() -> dict[str, str]:
     return {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
 
 
-def wall(command: Sequence[str], folder: str | None = None) -> tuple[float, str]:
-    """Seconds from the start of ``command`` to its end, and what it printed."""
-    start = time.perf_counter()
+def timed(command: Sequence[str], folder: str) -> tuple[float, float, str]:
+    """Seconds of computing of a process, of the user's and the system's, its wall seconds, and what it printed."""
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     done = subprocess.run(command, check=True, capture_output=True, text=True, env=environment(), cwd=folder)
-    return time.perf_counter() - start, done.stdout
+    wall, after = time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime, wall, done.stdout
 
 
-def against_import(command: Sequence[str], pairs: int = PAIRS) -> tuple[list[float], str]:
-    """Its time over that of the bare import, sorted, from processes in turn so that load is that of both; and what it
-    printed last. One process goes before them all, so that nothing is compiled or read for the first time.
+def against_import(command: Sequence[str], pairs: int = PAIRS) -> tuple[str, str]:
+    """Its time over that of the bare import, from processes in turn so that load is that of both: the median of the
+    computing, its range, and the least wall times; and what it printed last. One process goes before them all, so that
+    nothing is compiled or read for the first time.
     """
     bare = [sys.executable, "-c", "import ngsolve"]
     with TemporaryDirectory() as folder:
-        wall(command, folder)
-        ratios, printed = [], ""
-        for _ in range(pairs):
-            seconds, _ = wall(bare, folder)
-            longer, printed = wall(command, folder)
-            ratios.append(longer / seconds)
-    return sorted(ratios), printed
+        timed(command, folder)
+        turns = [(timed(bare, folder), timed(command, folder)) for _ in range(pairs)]
+    ratios = sorted(whole[0] / alone[0] for alone, whole in turns)
+    wall = min(whole[1] for _, whole in turns) / min(alone[1] for alone, _ in turns)
+    return f"{median(ratios):.2f} ({ratios[0]:.2f} to {ratios[-1]:.2f}; wall {wall:.2f})", turns[-1][1][2]
 
 
 def run_command(changes: Sequence[str]) -> list[str]:
@@ -82,14 +83,14 @@ def error_of(printed: str, changes: Sequence[str]) -> float:
 def report() -> Iterator[str]:
     """One line a reduction, and one for every run."""
     for reduction in ("axisymmetric", "3d"):
-        ratios, _ = against_import([sys.executable, "-c", FIRST_STEP, reduction], 3)
-        yield f"{reduction}, to the first Newton step: {median(ratios):.2f} times the import of ngsolve alone"
+        ratio, _ = against_import([sys.executable, "-c", FIRST_STEP, reduction], 3)
+        yield f"{reduction}, to the first Newton step: {ratio} times the import of ngsolve alone"
     for changes in RUNS:
-        ratios, printed = against_import(run_command(changes))
+        ratio, printed = against_import(run_command(changes))
         told = "embedding run problems/charged_balloon.toml" + "".join(f" --set '{change}'" for change in changes)
         yield (
-            f"`{told}`: {median(ratios):.2f} ({ratios[0]:.2f} to {ratios[-1]:.2f}) times the import of ngsolve alone, "
-            f"the whole process; error {error_of(printed, changes):.1e}"
+            f"`{told}`: {ratio} times the import of ngsolve alone, the whole process; "
+            f"error {error_of(printed, changes):.1e}"
         )
 
 
