@@ -12,9 +12,11 @@ from embedding.plan.decisions import Decision, Extent, Plan
 from embedding.plan.effects import Effects
 from embedding.plan.field import choose_extent, choose_interface, describe_potential
 from embedding.plan.mesh import choose_sizes, rim_size
+from embedding.plan.response import BEYOND
 from embedding.plan.symmetry import choose_reduction, odd_planes
 from embedding.plan.theory import choose_locking, choose_theory, judge_thinness
-from embedding.scene import Scene
+from embedding.scene import NeoHookean, Scene
+from embedding.scene.checks_electrodes import one_conductor
 
 
 def explain(scene: Scene) -> Plan:
@@ -52,12 +54,22 @@ def explain(scene: Scene) -> Plan:
 
 
 def _closed_form(effects: Effects) -> tuple[Decision, ...]:
-    """Is there nothing to solve for but a few numbers?"""
+    """Is there nothing to solve for but a few numbers? Of a thin neo-Hookean shell the stretch is known beforehand."""
     if not effects.loading.homogeneous:
         return ()
+    scene, known = effects.scene, effects.loading.answer
+    alone = scene.ambient is None or (scene.ambient.outer == "free-space" and _at_voltage(scene))
+    sure = alone and known is not BEYOND and isinstance(scene.shell.material, NeoHookean)
+    value = f", {known.stretch:.5g} if it is thin" if sure else ""
     kind = effects.loading.form
-    reason = f"a {kind} under the same load everywhere: one equation gives its stretch; solved all the same, to check"
+    reason = f"a {kind} under the same load everywhere: one equation gives its stretch{value}; solved all the same"
     return (Decision("solution", "the same everywhere", reason),)
+
+
+def _at_voltage(scene: Scene) -> bool:
+    """Is the shell one conductor whose potential is given?"""
+    top = scene.faces.top
+    return one_conductor(scene) and top is not None and top.voltage is not None
 
 
 def _loaded_points(scene: Scene, reduction: Reduction) -> tuple[tuple[float, ...], ...]:
