@@ -92,9 +92,9 @@ def test_meshes_end() -> None:
 
 def test_faces_left_at_the_mid_surface_are_opened_where_they_must_be() -> None:
     """With a loose accuracy the planner leaves them there, with a tight one not; both are within it."""
-    loose, tight = (charged_balloon.run(f"accuracy={one}") for one in (0.1, 2e-3))
+    loose, tight = (charged_balloon.run(f"accuracy={one}") for one in (0.2, 2e-3))
     assert not loose.plan.opened and tight.plan.opened
-    for solution, allowed in ((loose, 0.1), (tight, 2e-3)):
+    for solution, allowed in ((loose, 0.2), (tight, 2e-3)):
         known = charged_balloon.reference(solution)[-1] - 1.0
         assert abs((solution["stretch"][-1] - 1.0) / known - 1.0) < allowed
 
