@@ -13,6 +13,8 @@ STRETCHED = ((2, 2.0), (2, 1.0), (3, 1.0), (3, 0.5), (4, 0.5), (4, 0.25), (4, 0.
 and order 2 give a per cent."""
 BENT = ((3, 1.0), (3, 0.5), (4, 0.5), (4, 0.25), (4, 0.125))
 """The same where it is bent: order 2 may not resolve the planned mesh at all."""
+LOOSE = 1e-3
+"""Down to here the coarsest mesh is tried first: it costs little, and does on smooth problems."""
 GAIN = 6.0
 """By what one level reduces the discretisation's error, at least where it is smooth (docs/accuracy.md)."""
 AT_EDGES = (1.0, 0.25, 0.0625)
@@ -44,9 +46,8 @@ def ladder(plan: Plan) -> tuple[tuple[int, float], ...]:
 
 
 def first_level(plan: Plan, relative: float) -> Level:
-    """Where to start for an accuracy: a level that may reach it, the dearest of those."""
-    steps = max(0, math.floor(-math.log10(relative) - 1.5)) if not plan.bending else 0
-    return Level(min(steps, 2))
+    """Where to start for an accuracy: a level that often reaches it."""
+    return Level(0 if plan.bending or relative >= LOOSE else 2)
 
 
 def next_level(plan: Plan, level: Level, excess: float, *, at_edges: bool) -> Level | None:
