@@ -77,7 +77,9 @@ def test_what_needs_no_library_is_as_the_library_has_it() -> None:
     pairs = [(prefix + unit, unit) for prefix, unit in product(("", *"nuµmckMG"), ("m", "Pa", "V", "N", "A", "C", "T"))]
     pairs += [("kV/mm", "V/m"), ("mA/cm", "A/m"), ("uC/cm^2", "C/m^2"), ("kN/mm^3", "N/m^3"), ("N/mm**2", "N/m**2")]
     for unit, si in [*pairs, ("deg", "rad")]:
-        assert plain_factor(unit, si) == registry.Quantity(Decimal(1), registry.parse_units(unit)).to(si).magnitude
+        known = registry.Quantity(Decimal(1), registry.parse_units(unit)).to(si).magnitude
+        found = plain_factor(unit, si)
+        assert found is not None and float(found) == float(known)  # digits beyond depend on who used pint before
 
 
 @pytest.mark.parametrize("unit", ["inch", "N/mm^2", "kg", "m^2", "mm/m", "1/m", "V/m/m", "", "/", "Pam"])

@@ -29,7 +29,7 @@ from embedding.geometry.outline import SHARP_ANGLE
 from embedding.geometry.remeshing import one_order_more
 from embedding.plan.far_field import reach_of
 from embedding.solving.estimate.enriched import Changes, Enriched
-from embedding.solving.estimate.theory import Wall, wall_of
+from embedding.solving.estimate.theory import Wall, law_of, wall_of
 from embedding.solving.events import StepRecord
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
@@ -154,9 +154,9 @@ def _discretisation(problem: Problem, changes: Changes | None, scalars: Scalars)
     else:
         limit = _beyond(problem)
         ambient = {name: limit * change for name, change in changes.ambient.items()}
-        # From a rung below the joint one, Newton's steps find what the coupling left out as well.
-        name = "ambient and coupling" if problem.plan.coupling == "once" else "ambient"
-        found = {"shell": changes.shell, "geometry": changes.geometry, name: ambient}
+        found = {"shell": changes.shell, "geometry": changes.geometry, "ambient": ambient}
+        if problem.plan.coupling == "once":  # Newton's method finds what the coupling left out as well
+            found = {"ambient and coupling": {name: limit * change for name, change in changes.whole.items()}}
     return {source: errors for source, errors in found.items() if any(errors.values())}
 
 
@@ -192,7 +192,7 @@ def _theory(problem: Problem, scalars: Scalars, responses: dict[str, Scalars]) -
     wall = wall_of(problem, scalars)
     if wall is None:
         return {}
-    elastic = wall.elastic(problem.system.physics.law)
+    elastic = wall.elastic(law_of(problem))
     missed = {name: -elastic * response for name, response in responses.get("all", {}).items() if name in scalars}
     if "pressure" in problem.system.unknowns and "pressure_difference" in scalars:
         missed["pressure_difference"] = elastic * scalars["pressure_difference"]
@@ -230,7 +230,7 @@ def _faces(
     steep = _steepness(sum(pulled), scalars, responses)
     opened = bool(problem.plan.opened)
     off, own = (wall.face(steep), wall.place(steep)) if opened else (2 * [CLOSED_FACES * wall.thin])
-    borne = abs(problem.scales.stress * wall.pressure(problem.system.physics.law))
+    borne = abs(problem.scales.stress * wall.pressure(law_of(problem)))
     off *= min(1.0, sum(map(abs, pulled)) / borne) if borne > 0.0 else 1.0
     missed = {name: -off * pull.get(name, 0.0) - own * _own(name, value) for name, value in scalars.items()}
     field = problem.system.physics.field

@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from embedding.shell.laws.pieces import PiecewiseLaw
 from embedding.solving.problem import Problem
 
 POINTS = 8
@@ -102,11 +103,20 @@ class Wall:
         return float(stress) * self.thin * (1.0 if self.tube else 2.0)
 
 
+def law_of(problem: Problem) -> Any:
+    """The law of the shell outside of its regions."""
+    law: Any = problem.system.physics.law
+    while isinstance(law, PiecewiseLaw):
+        law = law.outside
+    return law
+
+
 def wall_of(problem: Problem, scalars: dict[str, float]) -> Wall | None:
     """The sphere or tube of the mean radius and stretch of the shell; None for flat shapes and for laws that are not
     those of rubber."""
     physics, domain = problem.system.physics, problem.domain
-    if domain.is_flat or not physics.law.incompressible:
+    flat = domain.is_flat or not math.isfinite(domain.curvature_radius)
+    if flat or not physics.law.incompressible:
         return None
     ratio = problem.scene.shell.thickest / problem.scales.length / domain.curvature_radius
     axial = scalars.get("axial_stretch", physics.axial_stretch)
