@@ -32,6 +32,7 @@ from ngsolve import (
 )
 
 from embedding.ambient.inverse import Inverter, Linear, norm
+from embedding.ambient.stiffening import StiffeningForm
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits, plane_mask, scalar_mask
 
@@ -76,18 +77,28 @@ class AmbientMotion:
         self._assembled_at, self._assembled_with = self._settled.copy(), np.zeros(interior.ndof)
         self._inverse: Any = None
         self._noticeable = NOTICEABLE * domain.sizes.shell
-        trial = interior.TrialFunction()
         self.rule = {element: IntegrationRule(element, 2 * INTERIOR_ORDER) for element in (ET.TET, ET.TRIG)}
-        self._form = BilinearForm(interior, symmetric=True)
-        for materials, y in self._parts(domain):
-            strain = extension_energy(Id(mesh.dim) + (Grad(trial) if y is None else Grad(y) + Grad(trial)))
-            self._form += Variation(strain * domain.volume(materials, self.rule)).Compile()
+        if mesh.dim == 3 and domain.base is None:
+            self._form: Any = StiffeningForm(
+                domain, interior, dict(self._parts(domain)), VOLUME_PRICE[3], self.rule[ET.TET]
+            )
+        else:
+            self._form = self.symbolic_form()
         self.free = as_bits(_interior_mask(domain, interior))
         self.linear, self._inverter = linear, Inverter(interior, self.free, linear, ACCURATE)
         self._samples = [
             (Det(gradient).Compile(), mesh.MapToAllElements(_sampling(mesh.dim, order), mesh.Materials(materials)))
             for materials, gradient, order in self._gradients(domain)
         ]
+
+    def symbolic_form(self) -> BilinearForm:
+        """The energy of the extension as NGSolve's form in w."""
+        domain, interior = self._domain, self.w.space
+        form, trial = BilinearForm(interior, symmetric=True), interior.TrialFunction()
+        for materials, y in self._parts(domain):
+            strain = extension_energy(Id(domain.mesh.dim) + (Grad(trial) if y is None else Grad(y) + Grad(trial)))
+            form += Variation(strain * domain.volume(materials, self.rule)).Compile()
+        return form
 
     def _parts(self, domain: Domain) -> list[tuple[str, Any]]:
         """Patterns of materials with the face displacement that reaches into them, None where none does."""
