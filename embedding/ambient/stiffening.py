@@ -151,20 +151,20 @@ class StiffeningForm:
 
 def _strain(moved: Array, at_rest: Array) -> _Strain:
     """From the derivatives (3 components, 3, p, e) of the motion and of the position at rest."""
-    inverse, before = _inverse(at_rest)  # d xi_a / d X_B at [a, B]
-    back, after = _inverse(at_rest + moved)
-    gradient = np.einsum("iape,aBpe->iBpe", at_rest + moved, inverse)
+    reference, before = inverse(at_rest)  # d xi_a / d X_B at [a, B]
+    back, after = inverse(at_rest + moved)
+    gradient = np.einsum("iape,aBpe->iBpe", at_rest + moved, reference)
     return _Strain(
         (gradient**2).sum(axis=(0, 1)),
         after / before,
         back.swapaxes(0, 1),
-        np.einsum("iBpe,aBpe->iape", gradient, inverse),
-        inverse.swapaxes(0, 1),
+        np.einsum("iBpe,aBpe->iape", gradient, reference),
+        reference.swapaxes(0, 1),
     )
 
 
-def _inverse(matrix: Array) -> tuple[Array, Array]:
-    """Inverse and determinant of 3 x 3 matrices along the first axes."""
+def inverse(matrix: Array) -> tuple[Array, Array]:
+    """Inverse and determinant of 3 x 3 matrices along the first axes of ``matrix``."""
     cofactor = np.stack([np.stack([_minor(matrix, i, j) for i in range(3)]) for j in range(3)])
     determinant = sum(matrix[0, k] * cofactor[k, 0] for k in range(3))
     return cofactor / determinant, determinant

@@ -6,7 +6,7 @@ functions at the same points, and sums over points are products of large matrice
 
 from __future__ import annotations
 
-from itertools import combinations
+from itertools import combinations, permutations
 from typing import Any
 
 import numpy as np
@@ -82,6 +82,19 @@ class Tets:
         values = np.take_along_axis(values, where[:, :, None], 1)
         basis = np.linalg.inv(self.shapes(space, degree, points)[0])
         return np.ascontiguousarray(np.tensordot(basis, values, axes=(1, 1)).transpose(0, 2, 1))
+
+
+def invariant(rule: IntegrationRule) -> bool:
+    """Is a quadrature on tets the same for any order of their vertices? NGSolve's are up to degree 8. Only then are
+    sums over :class:`Tets` those of symbolic forms, where integrands are no polynomials."""
+    points = np.column_stack([_barycentric(np.array(rule.points)), np.array(rule.weights)])
+    known = _sorted(points)
+    turns = (np.array([*turn, 4]) for turn in permutations(range(4)))
+    return all(np.allclose(_sorted(points[:, turn]), known, rtol=0.0, atol=1e-12) for turn in turns)
+
+
+def _sorted(points: Array) -> Array:
+    return points[np.lexsort(np.round(points, 9).T)]
 
 
 def _count(degree: int) -> int:

@@ -14,7 +14,6 @@ from ngsolve import BilinearForm, FESpace, GridFunction, Variation
 
 from embedding.coupling.lagrangian import Lagrangian
 from embedding.coupling.room import RoomyForm
-from embedding.geometry.spaces import Mask
 
 
 class Distant:
@@ -60,48 +59,3 @@ class Distant:
     def energy(self, potential: Any) -> float:
         """The co-energy of a ``potential``, a vector of the space."""
         return float(self._form.Energy(potential))
-
-
-class JointForm:
-    """The joint form, of which ``near`` is all but what is ``distant``: that is taken from there, with a minus sign.
-
-    What NGSolve's form offers to the linear solvers is offered here, under the same names.
-    """
-
-    def __init__(self, near: Any, distant: Distant) -> None:
-        self.near, self._distant = near, distant
-        self._potential, self._block = GridFunction(distant.space).vec, _Block(distant.range)
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self.near, name)
-
-    def Apply(self, vector: Any, out: Any) -> None:
-        """Write the residual at ``vector`` to ``out``."""
-        self.near.Apply(vector, out)
-        where = self._distant.range
-        self._potential.FV().NumPy()[:] = vector.FV().NumPy()[where]
-        out.FV().NumPy()[where] -= self._distant.gradient(self._potential).FV().NumPy()
-
-    def AssembleLinearization(self, vector: Any) -> None:
-        """Linearise at ``vector``."""
-        self.near.AssembleLinearization(vector)
-        self._block.subtract(self._distant.matrix(), self.near.mat)
-
-
-class _Block:
-    """The entries of a matrix of the potential in the joint one, whose rows and columns of it are ``where``."""
-
-    def __init__(self, where: slice) -> None:
-        self._where = where
-        self._inside: Mask | None = None
-
-    def subtract(self, part: Any, joint: Any) -> None:
-        """Subtract ``part`` from its block of ``joint``."""
-        values, columns, starts = (np.asarray(array) for array in joint.CSR())
-        rows = slice(int(starts[self._where.start]), int(starts[self._where.stop]))
-        if self._inside is None:
-            inside = (columns[rows] >= self._where.start) & (columns[rows] < self._where.stop)
-            if not np.array_equal(columns[rows][inside] - self._where.start, np.asarray(part.CSR()[1])):
-                raise RuntimeError("the potential's own matrix has other entries than its block of the joint one")
-            self._inside = inside
-        values[rows][self._inside] -= part.AsVector().FV().NumPy()

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from ngsolve import BaseMatrix, BilinearForm, CreateVVector
 from ngsolve.la import SparseMatrixd
 
-from embedding.coupling.lagrangian import Lagrangian
+from embedding.coupling.lagrangian import Extent, Lagrangian
 from embedding.coupling.linear import LinearSolverError
 from embedding.coupling.unknowns import assembled_in_batches
 from embedding.shell.batched import ShellElements, Spaces
@@ -25,21 +25,21 @@ from embedding.shell.membrane import Membrane
 Array = npt.NDArray[np.float64]
 
 
-def form_of(lagrangian: Lagrangian, *, distant: bool = True) -> Any:
-    """The joint form of ``lagrangian``: an :class:`ElementwiseForm` where that is possible, else NGSolve's; with what
-    is ``distant`` as in :meth:`Lagrangian.joint_form`."""
+def form_of(lagrangian: Lagrangian, field: Extent = "all") -> Any:
+    """The joint form of ``lagrangian``: an :class:`ElementwiseForm` where that is possible, else NGSolve's; with the
+    extent of the ``field`` as in :meth:`Lagrangian.joint_form`."""
     bending, membrane = lagrangian.unknowns.bending, lagrangian.membrane
     possible = assembled_in_batches(lagrangian.domain, lagrangian.physics)
     if possible and isinstance(bending, SurfaceBending) and membrane is not None:
-        return ElementwiseForm(lagrangian, bending, membrane, distant=distant)
-    return lagrangian.joint_form(distant=distant)
+        return ElementwiseForm(lagrangian, bending, membrane, field)
+    return lagrangian.joint_form(field=field)
 
 
 class ElementwiseForm:
     """Residual and condensed matrix of ``lagrangian``, and the operators that eliminate and recover the moments."""
 
     def __init__(
-        self, lagrangian: Lagrangian, bending: SurfaceBending, membrane: Membrane, *, distant: bool
+        self, lagrangian: Lagrangian, bending: SurfaceBending, membrane: Membrane, field: Extent
     ) -> None:
         unknowns, physics = lagrangian.unknowns, lagrangian.physics
         self._count, self._update, self._range = unknowns.space.ndof, membrane.update, unknowns.range("u")
@@ -53,7 +53,7 @@ class ElementwiseForm:
         )
         self._proximal = lagrangian.factors.proximal
         self._free, self._tied = (
-            lagrangian.joint_form(elastic=False, proximal=tied, distant=distant) for tied in (False, True)
+            lagrangian.joint_form(elastic=False, proximal=tied, field=field) for tied in (False, True)
         )
         self._store = _Store(self._free, self.shell, unknowns.condensed, unknowns.state.vec)
         self.harmonic_extension_trans = _Operator(self._count, self.shell.load)

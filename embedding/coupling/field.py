@@ -132,6 +132,10 @@ class FieldEnergies:
         """Every term of the co-energy: both sides, what lies beyond, other bodies, the inside of the shell."""
         return self.touching_energies(values) + self.distant_energies(values)
 
+    def touching_energies(self, values: dict[str, Any]) -> list[Any]:
+        """The terms on the shell and in the elements that touch it."""
+        return self.near_energies(values) + self.shell_energies(values)
+
     def distant_energies(self, values: dict[str, Any]) -> list[Any]:
         """The terms in elements that do not touch the shell: they depend on the potential alone, quadratically."""
         if self.field.extent != "surroundings":
@@ -139,18 +143,23 @@ class FieldEnergies:
         far = [term for side in SIDES.values() for term in self._far_energy(values, side, self._interior(side))]
         return far + self._far_energies(values) + self._solid_energies(values)
 
-    def touching_energies(self, values: dict[str, Any]) -> list[Any]:
-        """The terms in the shell and in the elements that touch it."""
+    def near_energies(self, values: dict[str, Any]) -> list[Any]:
+        """The terms in the elements of the ambient that touch the shell."""
+        if self.field.extent != "surroundings":
+            return []
+        return [
+            self._near_energy(values, side, self.motion_of(name, values), self._interior(side), given=True)
+            for name, side in SIDES.items()
+        ]
+
+    def shell_energies(self, values: dict[str, Any]) -> list[Any]:
+        """The terms on the shell itself."""
         field = self.field
         if field.extent == "given":
             return [self._in_given_field(values) * self.domain.surface()]
         if field.extent == "inside":
             return [self._film(values) * self.domain.surface()]
-        terms = []
-        for name, side in SIDES.items():
-            face, interior = self.motion_of(name, values), self._interior(side)
-            terms.append(self._near_energy(values, side, face, interior, given=True))
-            terms += [self.through_face(name, values)] if field.varying is not None else []
+        terms = [self.through_face(name, values) for name in SIDES] if field.varying is not None else []
         if "jump" in values and (field.matter.contrast is not None or field.matter.remanence is not None):
             terms += self._inside_shell(values)
         return terms

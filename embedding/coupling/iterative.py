@@ -129,14 +129,16 @@ class JointSolver(LinearSolver):
     def _strength(self) -> Array:
         """How strongly the unknowns of the potential in elements that touch the shell are coupled to what is no
         potential: the root of the sum of K_ij^2 / |K_ii K_jj|."""
-        from scipy import sparse  # slow to load, and small systems need no iteration
-
         values, columns, starts = (np.asarray(array) for array in self._form.mat.CSR())
-        whole = sparse.csr_array((values, columns, starts), shape=(len(self.kept), len(self.kept)))
-        sizes = np.abs(whole.diagonal())
+        sizes = np.abs(values[_diagonal(columns, starts)])
         weights = np.divide(1.0, sizes, out=np.zeros_like(sizes), where=self._others & (sizes > 0.0))
-        squares = whole[self._touching].power(2)
-        return np.asarray(np.sqrt(squares @ weights / sizes[self._touching]))
+        above, below = self._touching[0], self._touching[-1] + 1
+        first, last = int(starts[above]), int(starts[below])
+        squares = weights[columns[first:last]]
+        squares *= values[first:last]
+        squares *= values[first:last]
+        sums = np.add.reduceat(np.append(squares, 0.0), starts[above:below].astype(np.int64) - first)
+        return np.asarray(np.sqrt(sums[self._touching - above] / sizes[self._touching]))
 
     def _kept_part(self, load: Any, enough: float) -> Any:
         update, rest = load.CreateVector(), load.CreateVector()
@@ -199,6 +201,18 @@ class JointSolver(LinearSolver):
             if ending.remainder <= tolerance:
                 return found
         raise LinearSolverError(_failure("GMRES", ending))
+
+
+def _diagonal(columns: Any, starts: Any) -> npt.NDArray[np.int64]:
+    """Where the entries of the diagonal are among those of a matrix, sorted by rows; by bisection of all rows at once.
+    For rows without one, any place."""
+    low, high = starts[:-1].astype(np.int64), starts[1:].astype(np.int64)
+    rows = np.arange(len(low))
+    while np.any(high - low > 1):
+        middle = (low + high) // 2
+        left = columns[np.minimum(middle, len(columns) - 1)] <= rows
+        low, high = np.where(left & (high - low > 1), middle, low), np.where(left | (high - low <= 1), high, middle)
+    return np.asarray(np.minimum(low, len(columns) - 1), np.int64)
 
 
 def _failure(method: str, ending: Ending) -> str:

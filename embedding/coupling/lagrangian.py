@@ -15,7 +15,7 @@ The charges Q are constant forces on the potentials V of their conductors, which
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 from ngsolve import CF, BilinearForm, GridFunction, InnerProduct, Integrate, Parameter, Variation
 
@@ -35,6 +35,7 @@ ANCHOR = 1e-6
 where there is no field a face would have a zero on the diagonal, and elimination without pivoting cannot have that."""
 
 
+Extent = Literal["all", "touching", "shell"]
 OFFSET = {"t": 0.5, "b": -0.5}
 """Where the faces lie along the director lambda n, in thicknesses."""
 
@@ -88,20 +89,22 @@ class Lagrangian:
         """Kinematics of the mid-surface (or of a face) for the unknowns ``values``."""
         return Kinematics(self.domain.reduction, self.domain.normal, values[displacement], self.axial(values))
 
-    def field_energies(self, values: dict[str, Any], *, distant: bool = True) -> list[Any]:
-        """Every term of the field's co-energy, or all but what is ``distant`` from the shell; empty without a field."""
-        if self.field is None:
+    def field_energies(self, values: dict[str, Any], extent: Extent = "all") -> list[Any]:
+        """Every term of the field's co-energy, or those of an ``extent``: "touching" the shell, or in the "shell"
+        itself; empty without a field."""
+        field = self.field
+        if field is None:
             return []
-        return self.field.energies(values) if distant else self.field.touching_energies(values)
+        terms = {"all": field.energies, "touching": field.touching_energies, "shell": field.shell_energies}
+        return terms[extent](values)
 
     # -- the forms
 
-    def joint_form(self, *, elastic: bool = True, proximal: bool = True, distant: bool = True) -> Any:
+    def joint_form(self, *, elastic: bool = True, proximal: bool = True, field: Extent = "all") -> Any:
         """The form of all unknowns together; w and the load factors are parameters.
 
         Without what is ``elastic``, the energies of membrane and bending are left to others, and nothing is condensed;
-        without ``proximal``, the proximal stiffness is left out, and without what is ``distant`` the field that does
-        not touch the shell.
+        without ``proximal``, the proximal stiffness is left out; ``field`` is the extent of the field's terms.
         """
         trial = self.unknowns.trial
         residuals = self._residuals()
@@ -109,11 +112,11 @@ class Lagrangian:
         form = BilinearForm(self.unknowns.space, symmetric=not residuals, condense=condense)
         for term in self._shell_energies(trial, elastic=elastic):
             form += Variation(term).Compile()
-        for term in self.field_energies(trial, distant=distant):
+        for term in self.field_energies(trial, field):
             form += Variation(-1 * term).Compile()
         for term in [*([self._proximal()] * proximal), *self._openings(), *residuals]:
             form += term.Compile()
-        if distant:
+        if field == "all":
             return form
         pairs = [(trial[name], self.unknowns.test[name]) for name in ("phi", "jump") if name in self.unknowns]
         return RoomyForm(form, self.domain.mesh, pairs)

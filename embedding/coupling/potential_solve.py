@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from ngsolve import BilinearForm, FESpace, GridFunction, InnerProduct, Variation
+from ngsolve import GridFunction, InnerProduct
 
 from embedding.ambient.inverse import Linear, iterates
 from embedding.ambient.patches import Cycle
 from embedding.ambient.potential import Conductor
-from embedding.coupling.distant import Distant
 from embedding.coupling.iterative import PotentialSolver
 from embedding.coupling.lagrangian import Lagrangian
 from embedding.coupling.linear import DirectSolver
+from embedding.coupling.potential_form import PotentialForm
 from embedding.geometry.spaces import as_bits
 from embedding.timing import part
 
@@ -31,7 +31,7 @@ class PotentialSolve:
     ``linear`` says how it is solved; ``iterative`` is that solver, None where the matrix is factored.
     """
 
-    def __init__(self, lagrangian: Lagrangian, distant: Distant | None, linear: Linear = "auto") -> None:
+    def __init__(self, lagrangian: Lagrangian, form: PotentialForm, linear: Linear = "auto") -> None:
         unknowns, field = lagrangian.unknowns, lagrangian.physics.field
         if unknowns.potential is None or field is None:
             raise RuntimeError("this scene has no potential to solve for")
@@ -39,15 +39,8 @@ class PotentialSolve:
         self._field_factor = lagrangian.factors.field
         self._names = list(self._spaces.spaces)
         self._linear = field.matter.saturation is None
-        self._distant = distant
-        space = FESpace(list(self._spaces.spaces.values())) if distant is None else distant.space
-        values: dict[str, Any] = {name: unknowns.field(name) for name in unknowns.names}
-        trial = space.TrialFunction()
-        values.update(zip(self._names, trial, strict=True))
-        near = BilinearForm(space, symmetric=True)
-        for term in lagrangian.field_energies(values, distant=distant is None):
-            near += Variation(term).Compile()
-        self._form = near if distant is None else distant.with_room(near)
+        self._form, space = form, form.space
+        self._factored = -1
         self._free = np.concatenate([self._spaces.free[name] for name in self._names])
         # Without a potential around the shell there is nothing to iterate on.
         large = "phi" in self._names and iterates(linear, int(self._free.sum()), lagrangian.domain.mesh.dim)
@@ -79,13 +72,13 @@ class PotentialSolve:
         """NGSolve's energies know only of the mesh's own deformation: on a mesh made around a deformed shell the work
         of the residual along the way from no potential at all is taken, which is exact for a linear material."""
         if self._domain.base is None:
-            return self._stored(vector)
+            return self._form.energy(vector)
         part, residual = vector.CreateVector(), vector.CreateVector()
         part[:] = 0.0
-        energy = self._stored(part)
+        energy = self._form.energy(part)
         for place, weight in zip(*np.polynomial.legendre.leggauss(1 if self._linear else WAY), strict=True):
             part.data = 0.5 * (1 + place) * vector
-            self._gradient(part, residual)
+            self._form.gradient(part, residual)
             energy += 0.5 * weight * float(InnerProduct(residual, vector))
         return energy
 
@@ -98,7 +91,7 @@ class PotentialSolve:
         base that is the charge of both faces."""
         state = self._gather()
         residual = state.vec.CreateVector()
-        self._gradient(state.vec, residual)
+        self._form.gradient(state.vec, residual)
         return float(residual[self._starts[conductor.name] + conductor.number])
 
     @part("potential")
@@ -110,21 +103,20 @@ class PotentialSolve:
         state = self._gather()
         residual = state.vec.CreateVector()
         for _ in range(1 if self._linear else MOST_STEPS):
-            self._gradient(state.vec, residual)
+            self._form.gradient(state.vec, residual)
             for name, number, charge in self.charges_given():
                 residual[self._starts[name] + number] -= charge
-            self._assemble(state.vec)
+            self._assemble()
             step = self._solver.solve(residual, enough if self._linear else 0.0)
             state.vec.data -= step
+            for name, component in zip(self._names, state.components, strict=True):
+                self._unknowns.field(name).vec.data = component.vec
             if not self._linear and self._small(step, residual, state):
                 break
-        for name, component in zip(self._names, state.components, strict=True):
-            self._unknowns.field(name).vec.data = component.vec
 
     def forget(self) -> None:
         """Let the next solve assemble all of its matrix, as if the ambient had moved."""
-        if self._distant is not None:
-            self._distant.forget()
+        self._form.forget()
 
     def cycle(self, *, renewed: bool) -> Cycle:
         """The preconditioner of the last solve, or one ``renewed`` for the present state.
@@ -135,22 +127,15 @@ class PotentialSolve:
         if self.iterative is None:
             raise RuntimeError("this potential is solved directly")
         if renewed or not self.iterative.ready:
-            self._assemble(self._gather().vec)
+            self._assemble()
         return self.iterative.cycle
 
-    def _stored(self, vector: Any) -> float:
-        return float(self._form.Energy(vector)) + (0.0 if self._distant is None else self._distant.energy(vector))
-
-    def _gradient(self, vector: Any, out: Any) -> None:
-        self._form.Apply(vector, out)
-        if self._distant is not None:
-            out.data += self._distant.gradient(vector)
-
-    def _assemble(self, vector: Any) -> None:
-        self._form.AssembleLinearization(vector)
-        if self._distant is not None:
-            self._form.mat.AsVector().data += self._distant.matrix().AsVector()
-        self._solver.factor(self._form)
+    def _assemble(self) -> None:
+        """Bring the matrix, and what solves with it, up to date."""
+        self._form.assemble()
+        if self._factored != self._form.version:
+            self._solver.factor(self._form)
+            self._factored = self._form.version
 
     def _small(self, step: Any, residual: Any, state: GridFunction) -> bool:
         work = float(np.dot(step.FV().NumPy()[self._free], residual.FV().NumPy()[self._free]))

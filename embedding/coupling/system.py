@@ -11,13 +11,15 @@ from ngsolve import BND, GridFunction, InnerProduct
 
 from embedding.ambient.inverse import Linear
 from embedding.ambient.motion import AmbientMotion
-from embedding.coupling.distant import Distant, JointForm
+from embedding.coupling.distant import Distant
 from embedding.coupling.elementwise import form_of
 from embedding.coupling.following import Following
 from embedding.coupling.iterative import JointSolver, far_unknowns
+from embedding.coupling.joint import joint_form_of
 from embedding.coupling.lagrangian import OFFSET, Factors, Lagrangian
 from embedding.coupling.linear import DirectSolver, LinearSolver
 from embedding.coupling.physics import Physics
+from embedding.coupling.potential_form import PotentialForm
 from embedding.coupling.potential_solve import PotentialSolve
 from embedding.coupling.resultants import BodyResultants, ShellResultants
 from embedding.coupling.tractions import FaceTractions
@@ -56,11 +58,7 @@ class System:
         if "axial" in self.unknowns:
             self.unknowns.field("axial").vec[0] = 1.0
         self.place_faces()  # before any form is evaluated: between faces that coincide there is no field
-        distant = Distant(self.lagrangian) if "phi" in self.unknowns else None
-        near = form_of(self.lagrangian, distant=distant is None)
-        self.form = near if distant is None else JointForm(near, distant)
-        known = self.unknowns.potential is not None
-        self.potential = PotentialSolve(self.lagrangian, distant, linear) if known else None
+        self.form, self.potential = self._forms(linear)
         self.tractions = {face: FaceTractions(self.lagrangian, face) for face in self.unknowns.faces}
         self.following: Following | None = None
         if self.lagrangian.field is not None and domain.open and self.motions:
@@ -74,6 +72,16 @@ class System:
         self._solver = self._linear_solver(())
         self._measured = self._linearised = self._displacement
         self.residual()  # NGSolve differentiates an interpolation wrongly until it has been evaluated once
+
+    def _forms(self, linear: Linear) -> tuple[Any, PotentialSolve | None]:
+        """The joint form, and what solves for the potential alone."""
+        lagrangian = self.lagrangian
+        if self.unknowns.potential is None:
+            return form_of(lagrangian), None
+        distant = Distant(lagrangian) if "phi" in self.unknowns else None
+        alone = PotentialForm(lagrangian, distant)
+        joint = form_of(lagrangian) if distant is None else joint_form_of(lagrangian, distant, alone)
+        return joint, PotentialSolve(lagrangian, alone, linear)
 
     def _ambient_motions(self, linear: Linear) -> dict[str, AmbientMotion]:
         """The motion of each side; around an open shell both sides are one space with one motion."""

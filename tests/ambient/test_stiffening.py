@@ -11,7 +11,7 @@ from ngsolve import BND, CF, H1, TET, Grad, GridFunction, Integrate, Integration
 
 from embedding.ambient.motion import AmbientMotion
 from embedding.ambient.stiffening import StiffeningForm
-from embedding.ambient.tets import Tets
+from embedding.ambient.tets import Tets, invariant
 from embedding.geometry.spaces import TraceSpace
 from tests.forms import Array, body
 
@@ -78,3 +78,7 @@ def test_functions_and_places_are_those_of_the_mesh(degree: int) -> None:
     density = np.abs(np.linalg.det(jacobian)) * (gradient**2).sum(axis=2)
     known = Integrate(Grad(field) * Grad(field) * domain.volume(".*", {TET: rule}), domain.mesh)
     assert float((np.array(rule.weights) @ density).sum()) == pytest.approx(known, rel=1e-12)
+
+
+def test_rules_that_do_not_depend_on_the_order_of_vertices() -> None:
+    assert [invariant(IntegrationRule(TET, 2 * order)) for order in range(1, 6)] == [True] * 4 + [False]
