@@ -25,10 +25,10 @@ LARGEST_UPDATE = 0.5
 MOST_HALVINGS = 6
 SHRINKING, STALLED = 0.7, 4
 """Newton is given up when the best of the last ``STALLED`` updates is above ``SHRINKING`` times the best before."""
-ENOUGH = 1e-3
+ENOUGH, ROUGHLY = 1e-2, 1e-3
 """What iterative linear solvers leave of the error at first; later the square of what the last step left of the
 residual before: no more than Newton's method leaves itself (S. Eisenstat, H. Walker, SIAM J. Sci. Comput. 17 (1996)
-16, choice 2)."""
+16, choice 2). And what they leave of the error of the potential, which the joint step then corrects."""
 PROXIMAL, FADING, GONE = 0.3, 0.4, 1e-4
 """Proximal stiffness of the first iteration in shear moduli, its factor from one to the next, and where it ends."""
 
@@ -128,7 +128,7 @@ class Newton:
     def _update(self, enough: float) -> tuple[float, float]:
         start = time.perf_counter()
         if self.system.potential is not None:
-            self.system.potential.solve(ENOUGH)
+            self.system.potential.solve(ROUGHLY)
             start = self.clock.add("potential", start)
         step, residual = self.system.newton_update(enough)
         size = self.system.displacement_norm(step)
