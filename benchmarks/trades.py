@@ -1,14 +1,14 @@
 """What accuracy costs on every problem: the whole ladder of each scene, compared; the tables of docs/trades.md.
 
-``python -m benchmarks.trades docs FOLDER`` (an hour on one core) keeps the archives of all rungs in FOLDER, and goes on
-with what is there.
+``python -m benchmarks.trades docs FOLDER [PROBLEM ...]`` (an hour on one core) keeps the archives of all rungs in
+FOLDER, and goes on with what is there; with names of problems it does only those.
 """
 
 from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from benchmarks.pages import write
@@ -21,15 +21,16 @@ PROBLEMS = Path(__file__).parents[1] / "problems"
 PAGE = Path(__file__).parents[1] / "docs" / "trades.md"
 TOO_LONG = ("half_cylinder", "pinched_cylinder", "pulled_cylinder", "obstacle_course")
 """Paths of minutes on every rung: docs/benchmarks.md has them on three meshes."""
-LONGEST = 120.0
+LONGEST = 40.0
+"""Wall time in s after which a rung is given up."""
 MODELS = ("reduction", "shell theory", "faces", "coupling", "far field")
 """Choices of the model; those of the mesh are in the columns of the cheapest."""
 
 
-def trades(folder: Path) -> Iterator[Trade]:
-    """Every problem whose scene has an answer on its finest rung."""
+def trades(folder: Path, names: Sequence[str]) -> Iterator[Trade]:
+    """Every problem whose scene has an answer on its finest rung, or those of the ``names``."""
     for file in sorted(PROBLEMS.glob("*.toml")):
-        if file.stem in TOO_LONG:
+        if file.stem in TOO_LONG or (names and file.stem not in names):
             continue
         try:
             yield measure_trade(load_scene(file), folder / file.stem, seconds=LONGEST, progress=True)
@@ -53,9 +54,9 @@ def model_rows(trade: Trade) -> Iterator[str]:
             yield f"| {trade.scene.name} | {row.rung} | {row.error:.1e} | {trade.cost(row):.2g} |"
 
 
-def tables(folder: Path) -> dict[str, list[str]]:
+def tables(folder: Path, names: Sequence[str]) -> dict[str, list[str]]:
     """The tables of the page, by their markers."""
-    found = list(trades(folder))
+    found = list(trades(folder, names))
     heads = " | ".join(f"within {t:g}" for t in TOLERANCES)
     cheapest = [f"| problem | answer | plan: error (estimate), CPU | {heads} |", "|" + "---|" * (3 + len(TOLERANCES))]
     models = ["| problem | in place of the plan's | error | CPU over the plan's |", "|---|---|---|---|"]
@@ -66,5 +67,5 @@ def tables(folder: Path) -> dict[str, list[str]]:
 
 
 if __name__ == "__main__":
-    for mark, lines in tables(Path(sys.argv[2])).items():
+    for mark, lines in tables(Path(sys.argv[2]), sys.argv[3:]).items():
         write(PAGE, lines, f"<!-- {mark} -->")
