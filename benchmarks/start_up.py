@@ -33,7 +33,7 @@ scene = scene.model_copy(update={"model": {"reduction": sys.argv[1]}})
 solve(scene, throw=False, listeners=[Stop()])
 """
 ASKED, ONE_STEP, OWN_STEPS = "accuracy.relative=1e-3", "path.0.steps=1", "path=[{}]"
-"""``OWN_STEPS``: the path is followed in steps of the solver's choice, six here, as where no number of them is stated."""
+"""``OWN_STEPS``: in steps of the solver's choice, six here, as where no number of them is stated."""
 RUNS = ((), (ASKED,), (ASKED, OWN_STEPS), (ASKED, ONE_STEP))
 PAIRS = 7
 
