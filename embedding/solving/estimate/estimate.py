@@ -27,6 +27,7 @@ from dataclasses import dataclass
 
 from embedding.geometry.outline import SHARP_ANGLE
 from embedding.geometry.remeshing import one_order_more
+from embedding.plan.coefficients import CLOSED_FACES, SHEAR
 from embedding.plan.far_field import reach_of
 from embedding.solving.estimate.enriched import Changes, Enriched
 from embedding.solving.estimate.theory import Wall, law_of, wall_of
@@ -37,7 +38,8 @@ from embedding.solving.solution import DISCRETE, ErrorEstimate
 from embedding.solving.state import State
 
 Scalars = dict[str, float]
-CLOSED_FACES, SHEAR, BENT = 1.6, 0.6, 0.1
+BENT = 0.1
+"""Stretch over displacement below which a shell bends more than it stretches."""
 STILL = 1e-12
 """Displacement over size of a shell that does not move."""
 COUNTED = ("unstable_modes", "remeshings", "min_jacobian", "coupling_iterations", "contraction", "coupling_gap",
