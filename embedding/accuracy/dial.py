@@ -77,9 +77,10 @@ def _judged(scene: Scene, plan: Plan, level: Level, solution: Solution, relative
         if lifted != scene:
             return Verdict("what the plan left out was needed", scene=lifted, level=level)
         return _finer(scene, plan, level, float("inf"), solution, at_edges=False)
-    higher = _without_what_failed(scene, solution)
-    if higher is not None:
-        return Verdict(_violated(_violations(scene, solution)), scene=higher, level=level)
+    violations = _violations(scene, solution)
+    higher = raised(scene, violations)
+    if higher != scene:
+        return Verdict(_violated(violations), scene=higher, level=level)
     error = solution.error
     if SURE * error.value <= relative:
         return Verdict("", Result.CONVERGED)
@@ -132,12 +133,6 @@ def _beyond(scene: Scene, level: Level, error: ErrorEstimate, model: float, rela
 
 BETTER = {"closed faces": "model.interface=opened", "far field": "model.far_field=infinite"}
 """Sources of errors that a better model takes away."""
-
-
-def _without_what_failed(scene: Scene, solution: Solution) -> Scene | None:
-    """``scene`` with what it must not leave out, as the solution shows; None where all assumptions hold."""
-    higher = raised(scene, _violations(scene, solution))
-    return None if higher == scene else higher
 
 
 def _violations(scene: Scene, solution: Solution) -> list[Assumption]:

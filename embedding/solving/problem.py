@@ -60,6 +60,11 @@ class Problem:
         """The NGSolve mesh; its coordinates are dimensionless."""
         return self.domain.mesh
 
+    @property
+    def held(self) -> bool:
+        """Is there a field, and nothing of the shell can move?"""
+        return self.system.potential is not None and not self.system.unknowns.trace.free.any()
+
     @cached_property
     def blocks(self) -> dict[str, Block]:
         """The parts of the mesh that carry fields."""

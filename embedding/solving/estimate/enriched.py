@@ -73,7 +73,7 @@ class Enriched(Problem):
 
     def _carry(self, name: str, problem: Problem) -> None:
         richer, present = self.system.unknowns.field(name), problem.system.unknowns.field(name)
-        if name in self.system.unknowns.numbers:
+        if richer.space.ndof == 1:
             richer.vec[0] = present.vec[0]
         elif name in ("u", "y_t", "y_b", "o_t", "o_b", "tau_t", "tau_b"):
             richer.Set(present, BND, definedon=self.domain.shell)
@@ -81,8 +81,6 @@ class Enriched(Problem):
             richer.vec.FV().NumPy()[~(unknowns.trace.free if name == "u" else unknowns.face_free)] = 0.0
         elif name == "phi":
             richer.Set(present)
-        elif name == "jump" and richer.space.ndof == 1:
-            richer.vec[0] = present.vec[0]
         elif name in ("moment", "jump"):
             richer.Set(present, BND, definedon=self.domain.shell)
         elif name == "rotation":
@@ -90,11 +88,6 @@ class Enriched(Problem):
             for facet in facets:  # the polynomials on an edge are hierarchical
                 old, new = (unknowns_on(field.space, np.array([facet])) for field in (present, richer))
                 richer.vec.FV().NumPy()[new[: len(old)]] = present.vec.FV().NumPy()[old]
-
-    @property
-    def held(self) -> bool:
-        """Is there a field, and nothing of the shell can move?"""
-        return self.system.potential is not None and not self.system.unknowns.trace.free.any()
 
     def improve(
         self, target: Target, before: Scalars, straight: Callable[[Callable[[], None]], None]

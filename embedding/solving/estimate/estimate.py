@@ -77,11 +77,12 @@ def estimate_errors(problem: Problem, target: Target, steps: Sequence[StepRecord
         solved = changes is not None and not richer.held
         responses = richer.responses(target) if solved else {}
         condition = richer.condition() if solved else None
-    sources = _discretisation(problem, changes, scalars)
-    sources |= _theory(problem, scalars, responses) | _field(problem, scalars, responses, State(problem))
+    limit, wall = _beyond(problem), wall_of(problem, scalars)
+    sources = _discretisation(problem, changes, scalars, limit)
+    sources |= _theory(problem, wall, scalars, responses) | _field(problem, wall, scalars, responses)
     sources["solver"] = {name: _last_update(problem, steps[-1]) for name in scalars if _moves(name)}
     method = _method(problem, changes)
-    whole = {} if changes is None else {n: _beyond(problem) * change for n, change in changes.whole.items()}
+    whole = {} if changes is None else {n: limit * change for n, change in changes.whole.items()}
     errors = {name: _sum(name, value, sources, whole, method) for name, value in scalars.items()}
     moved, answer = scalars.get("displacement", 0.0), responses.get("all", {}).get("displacement")
     response = None if answer is None or moved == 0.0 else abs(answer / moved)
@@ -93,8 +94,7 @@ def default_quantity(problem: Problem, scalars: Scalars, target: Target) -> str:
     controls the volume, the field's energy or the pull around a shell that is held, else the displacement."""
     if target.volume is not None:
         return "pressure_difference"
-    held = problem.system.potential is not None and not problem.system.unknowns.trace.free.any()
-    if held:
+    if problem.held:
         return "field_energy" if "field_energy" in scalars else "pressure_top"
     return "displacement" if scalars["displacement"] > STILL * problem.scales.length else "stretch"
 
@@ -148,13 +148,14 @@ def _method(problem: Problem, changes: Changes | None) -> str:
 # -- discretisation
 
 
-def _discretisation(problem: Problem, changes: Changes | None, scalars: Scalars) -> dict[str, Scalars]:
+def _discretisation(
+    problem: Problem, changes: Changes | None, scalars: Scalars, limit: float
+) -> dict[str, Scalars]:
     if changes is None:  # the mesh does not resolve the state: nothing of it is certain
         return {"shell": dict(scalars)}
     if problem.system.potential is None:
         found = {"shell": changes.shell, "geometry": changes.geometry}
     else:
-        limit = _beyond(problem)
         ambient = {name: limit * change for name, change in changes.ambient.items()}
         found = {"shell": changes.shell, "geometry": changes.geometry, "ambient": ambient}
         if problem.plan.coupling == "once":  # Newton's method finds what the coupling left out as well
@@ -187,11 +188,12 @@ def _moves(name: str) -> bool:
     return name in ("displacement", "stretch", "axial_stretch", "volume_ratio") or name.startswith("u_")
 
 
-def _theory(problem: Problem, scalars: Scalars, responses: dict[str, Scalars]) -> dict[str, Scalars]:
+def _theory(
+    problem: Problem, wall: Wall | None, scalars: Scalars, responses: dict[str, Scalars]
+) -> dict[str, Scalars]:
     if _bent(problem, scalars):
         shear = SHEAR * (problem.scene.shell.thickest / problem.scales.length) ** 2
         return {"shear": {name: shear * value for name, value in scalars.items() if _moves(name)}}
-    wall = wall_of(problem, scalars)
     if wall is None:
         return {}
     elastic = wall.elastic(law_of(problem))
@@ -208,14 +210,15 @@ def _theory(problem: Problem, scalars: Scalars, responses: dict[str, Scalars]) -
 # -- field
 
 
-def _field(problem: Problem, scalars: Scalars, responses: dict[str, Scalars], state: State) -> dict[str, Scalars]:
+def _field(
+    problem: Problem, wall: Wall | None, scalars: Scalars, responses: dict[str, Scalars]
+) -> dict[str, Scalars]:
     ambient, plan = problem.scene.ambient, problem.plan
     if ambient is None or plan.extent != "surroundings":
         return {}
     found, pull = {}, responses.get("field", {})
-    wall = wall_of(problem, scalars)
     if wall is not None:
-        found["opened faces" if plan.opened else "closed faces"] = _faces(problem, wall, scalars, responses, state)
+        found["opened faces" if plan.opened else "closed faces"] = _faces(problem, wall, scalars, responses)
     if ambient.outer != "grounded" and not plan.sizes.beyond and plan.sizes.box is None:
         reach = reach_of(problem.scene, ambient) * max(1.0, scalars.get("stretch_max", 1.0))
         off = _missed_far_away(problem, reach)
@@ -225,9 +228,8 @@ def _field(problem: Problem, scalars: Scalars, responses: dict[str, Scalars], st
     return found
 
 
-def _faces(
-    problem: Problem, wall: Wall, scalars: Scalars, responses: dict[str, Scalars], state: State
-) -> Scalars:
+def _faces(problem: Problem, wall: Wall, scalars: Scalars, responses: dict[str, Scalars]) -> Scalars:
+    state = State(problem)
     pulled, pull = state.field_pressures(), responses.get("field", {})
     steep = _steepness(sum(pulled), scalars, responses)
     opened = bool(problem.plan.opened)

@@ -115,9 +115,11 @@ def wall_of(problem: Problem, scalars: dict[str, float]) -> Wall | None:
     """The sphere or tube of the mean radius and stretch of the shell; None for flat shapes and for laws that are not
     those of rubber."""
     physics, domain = problem.system.physics, problem.domain
-    flat = domain.is_flat or not math.isfinite(domain.curvature_radius)
-    if flat or not physics.law.incompressible:
+    if domain.is_flat or not physics.law.incompressible:
         return None
-    ratio = problem.scene.shell.thickest / problem.scales.length / domain.curvature_radius
+    radius = domain.curvature_radius
+    if not math.isfinite(radius):
+        return None
+    ratio = problem.scene.shell.thickest / problem.scales.length / radius
     axial = scalars.get("axial_stretch", physics.axial_stretch)
     return Wall(problem.reduction.name == "plane-strain", ratio, scalars["stretch"], axial)
