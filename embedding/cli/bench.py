@@ -1,4 +1,4 @@
-"""`embedding bench`: what a full run spends, part by part."""
+"""`embedding bench`: what a full run spends, part by part; `embedding bench extremes`: what holds at the extremes."""
 
 from __future__ import annotations
 
@@ -8,13 +8,16 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
+from embedding.cli.extremes import extremes
+
 if TYPE_CHECKING:
     from embedding.bench import Spending
 
 SHOWN = 5e-4
 """Parts of the whole that are smaller are not printed."""
 
-bench_app = App(name="bench", help="Measure what a run spends, part by part.")
+bench_app = App(name="bench", help="Measure what a run spends, part by part, or what holds at the extremes.")
+bench_app.command(extremes)
 
 
 @bench_app.default
