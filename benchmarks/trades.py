@@ -23,6 +23,8 @@ TOO_LONG = ("half_cylinder", "pinched_cylinder", "pulled_cylinder", "obstacle_co
 """Paths of minutes on every rung: docs/benchmarks.md has them on three meshes."""
 LONGEST = 40.0
 """Wall time in s after which a rung is given up."""
+PULL_IN = {"dielectric_film": 240.0, "plate_pull_in": 240.0}
+"""The same for paths past pull-in points, whose finest rungs take longer."""
 MODELS = ("reduction", "shell theory", "faces", "coupling", "far field")
 """Choices of the model; those of the mesh are in the columns of the cheapest."""
 
@@ -33,7 +35,8 @@ def trades(folder: Path, names: Sequence[str]) -> Iterator[Trade]:
         if file.stem in TOO_LONG or (names and file.stem not in names):
             continue
         try:
-            yield measure_trade(load_scene(file), folder / file.stem, seconds=LONGEST, progress=True)
+            longest = PULL_IN.get(file.stem, LONGEST)
+            yield measure_trade(load_scene(file), folder / file.stem, seconds=longest, progress=True)
         except StudyError as error:
             print(f"{file.stem}: {error}", file=sys.stderr)
 

@@ -1,11 +1,12 @@
 """Plain NGSolve: the charged balloon in 3D as a script that solves membrane and field in turn; prints one line of JSON.
 
-``python ngsolve_balloon.py ORDER SHELL_SIZE GRADING STEPS``: polynomial ORDER of the displacement, SHELL_SIZE in radii,
-voltage in STEPS. An octant of the sphere between three mirror planes, the membrane as an energy on its boundary, the
-potential, of one order more, in the space outside, whose mesh is deformed by an extension of the outer face's
-displacement. The pull on the outer face acts on the present mid-surface; its force is kept as it is while the membrane
-moves. Past the limit of a given pressure, where this balloon ends, only that converges; without relaxation in a few
-turns. Lengths in radii, stresses in shear moduli, the permittivity is 1.
+``python ngsolve_balloon.py ORDER SHELL_SIZE GRADING STEPS PART``: polynomial ORDER of the displacement, SHELL_SIZE in
+radii, voltage in STEPS; PART is "whole", or "octant" for one between three mirror planes, as one draws it who sees
+that the answer has them. The membrane is an energy on the boundary of the space; the potential, of one order more,
+lives in the space outside, whose mesh is deformed by an extension of the outer face's displacement. The pull on the
+outer face acts on the present mid-surface; its force is kept as it is while the membrane moves. Past the limit of a
+given pressure, where this balloon ends, only that converges; without relaxation in a few turns. Lengths in radii,
+stresses in shear moduli, the permittivity is 1.
 """
 
 from __future__ import annotations
@@ -48,18 +49,20 @@ MOVED, ON_THE_WAY = 1e-4, 1e-2
 """Turns end when the membrane has moved by less; before the last voltage sooner."""
 
 
-def meshed(order: int, size: float, grading: float) -> Mesh:
-    """The octant of the space between the balloon and the ball in which it is computed."""
+def meshed(order: int, size: float, grading: float, octant: bool) -> Mesh:
+    """The space between the balloon and the ball in which it is computed, or an octant of it."""
     balloon = Sphere(Pnt(0, 0, 0), 1.0)
     balloon.faces.name, balloon.faces.maxh = "shell", size
     outer = Sphere(Pnt(0, 0, 0), OUTER)
     outer.faces.name = "outer"
-    octant = (outer - balloon) * Box(Pnt(0, 0, 0), Pnt(2 * OUTER, 2 * OUTER, 2 * OUTER))
-    for face in octant.faces:
-        for axis, name in enumerate("xyz"):
-            if abs(face.center[axis]) < 1e-6:
-                face.name = name
-    mesh = Mesh(OCCGeometry(octant).GenerateMesh(maxh=OUTER / 2, grading=grading))
+    space = outer - balloon
+    if octant:
+        space *= Box(Pnt(0, 0, 0), Pnt(2 * OUTER, 2 * OUTER, 2 * OUTER))
+        for face in space.faces:
+            for axis, name in enumerate("xyz"):
+                if abs(face.center[axis]) < 1e-6:
+                    face.name = name
+    mesh = Mesh(OCCGeometry(space).GenerateMesh(maxh=OUTER / 2, grading=grading))
     mesh.Curve(order)
     return mesh
 
@@ -72,16 +75,29 @@ def bits(mask: np.ndarray) -> BitArray:
     return out
 
 
+def held(mesh: Mesh, moved: VectorH1) -> np.ndarray:
+    """Six components that keep the whole balloon from rigid motions: the poles stay on their axis, a point of the
+    equator in its plane and meridian."""
+    points, out = mesh.ngmesh.Coordinates(), np.zeros(moved.ndof, dtype=bool)
+    for place, axes in (((0, 0, 1), (0, 1)), ((0, 0, -1), (0, 1)), ((1, 0, 0), (1, 2))):
+        nearest = int(np.argmin(np.linalg.norm(points - place, axis=1)))
+        for axis in axes:
+            out[moved.Range(axis).start + nearest] = True
+    return out
+
+
 class Balloon:
     """Membrane, moving space and field, each with its own solve."""
 
-    def __init__(self, order: int, size: float, grading: float) -> None:
-        self.mesh = mesh = meshed(order, size, grading)
+    def __init__(self, order: int, size: float, grading: float, octant: bool) -> None:
+        self.mesh = mesh = meshed(order, size, grading, octant)
         self.moved = VectorH1(mesh, order=order, dirichletx="x", dirichlety="y", dirichletz="z")
         self.potential = H1(mesh, order=order + 1, dirichlet="shell")
         self.u, self.phi, self.place = GridFunction(self.moved), GridFunction(self.potential), GridFunction(self.moved)
         self.normal = -specialcf.normal(3)
         unmoved = np.fromiter(self.moved.FreeDofs(), bool)
+        if not octant:
+            unmoved &= ~held(mesh, self.moved)
         shell = np.fromiter(self.moved.GetDofs(mesh.Boundaries("shell")), bool)
         outer = np.fromiter(self.moved.GetDofs(mesh.Boundaries("outer")), bool)
         self.on_shell, self.inside = bits(unmoved & shell), bits(unmoved & ~shell & ~outer)
@@ -149,10 +165,10 @@ class Balloon:
         return float(np.sqrt(Integrate(Norm(self.deformed), self.mesh, BND, definedon=shell) / area))
 
 
-def main(order: int, size: float, grading: float, steps: int) -> None:
+def main(order: int, size: float, grading: float, steps: int, part: str) -> None:
     """Solve and print."""
     start, wall = time.process_time(), time.perf_counter()
-    balloon, turns, moved = Balloon(order, size, grading), 0, np.inf
+    balloon, turns, moved = Balloon(order, size, grading, part == "octant"), 0, np.inf
     for step in range(1, steps + 1):
         for _ in range(TURNS):
             turns += 1
@@ -173,4 +189,4 @@ def main(order: int, size: float, grading: float, steps: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), float(sys.argv[2]), float(sys.argv[3]), int(sys.argv[4]))
+    main(int(sys.argv[1]), float(sys.argv[2]), float(sys.argv[3]), int(sys.argv[4]), sys.argv[5])

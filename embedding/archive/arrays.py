@@ -86,9 +86,9 @@ def growable(
     return dataset
 
 
-def put(dataset: Any, start: int, rows: Any) -> None:
+def put(dataset: Any, start: int, rows: Any) -> npt.NDArray[Any]:
     """Write ``rows`` from row ``start`` of a dataset (or its identifier) on, over whatever an unfinished step may have
-    left there."""
+    left there; returns them as they are stored."""
     stored = dataset if isinstance(dataset, h5d.DatasetID) else dataset.id
     values = np.ascontiguousarray(rows, stored.dtype)
     length, shape = stored.shape[0], stored.shape[1:]
@@ -97,6 +97,7 @@ def put(dataset: Any, start: int, rows: Any) -> None:
     if len(values):
         memory, place = _places(stored, start, values.shape)
         stored.write(memory, place, values, stored.get_type())
+    return values
 
 
 def rows(dataset: Any, begin: int, end: int) -> npt.NDArray[Any]:

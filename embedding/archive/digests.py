@@ -8,7 +8,7 @@ fields; the documents, meshes, units and names share one, and so have each slot 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import h5py
@@ -54,12 +54,19 @@ def rows_digests(own: Any, begin: int, end: int) -> Iterator[Digest]:
     newton = {name: rows(column, first, last) for name, column in stored_in(own["newton"]).items()}
     starts = [0, *(end - first for end in ends)]
     for row in range(end - begin):
-        parts: list[Any] = []
-        for name, column in columns.items():
-            parts += [name, column[row]]
-        for name, column in newton.items():
-            parts += [name, column[starts[row] : starts[row + 1]]]
-        yield digest_of(*parts)
+        here = {name: column[row] for name, column in columns.items()}
+        yield row_digest(here, {name: column[starts[row] : starts[row + 1]] for name, column in newton.items()})
+
+
+def row_digest(columns: Mapping[str, Any], newton: Mapping[str, Any]) -> Digest:
+    """Of one step: its entry in each column of the tables, by TABLE/COLUMN, and its Newton iterations by column.
+
+    Columns follow each other by table as in ``TABLES``, in each by name.
+    """
+    order = sorted(columns, key=lambda name: (TABLES.index(name.partition("/")[0]), name))
+    parts = [part for name in order for part in (name, columns[name])]
+    parts += [part for name in sorted(newton) for part in (name, newton[name])]
+    return digest_of(*parts)
 
 
 def damaged_rows(own: Any, steps: int) -> list[int]:
@@ -72,16 +79,24 @@ def damaged_rows(own: Any, steps: int) -> list[int]:
 
 
 def fields_digest(file: Any, step: int) -> Digest:
-    """Of all fields of one step."""
-    parts: list[Any] = []
-    for block in sorted(file["VTKHDF/Assembly/Scene"]):
+    """Of all fields of one step, read from the file."""
+    found: dict[str, Any] = {}
+    for block in file["VTKHDF/Assembly/Scene"]:
         group = file["VTKHDF"][block]
         part = part_of(group, step)
         points = int(rows(stored(group, "NumberOfPoints"), part, part + 1)[0])
         begin = int(rows(stored(file, f"embedding/vtk/{table('Row', block)}"), step, step + 1)[0])
-        for name, dataset in stored_in(group["PointData"]).items():
-            parts += [f"{block}/{name}", rows(dataset, begin, begin + points)]
-    return digest_of(*parts)
+        found |= {
+            f"{block}/{name}": rows(dataset, begin, begin + points)
+            for name, dataset in stored_in(group["PointData"]).items()
+        }
+    return values_digest(found)
+
+
+def values_digest(fields: Mapping[str, Any]) -> Digest:
+    """Of all fields of one step, by BLOCK/FIELD, as they are stored."""
+    in_order = sorted(fields, key=lambda name: name.split("/", 1))
+    return digest_of(*(part for name in in_order for part in (name, fields[name])))
 
 
 def record_digest(file: Any) -> Digest:

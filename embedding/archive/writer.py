@@ -24,7 +24,15 @@ import numpy.typing as npt
 from embedding.archive import layout, views
 from embedding.archive.arrays import noted, put, rows, stored, stored_in
 from embedding.archive.axes import label_axes
-from embedding.archive.digests import damaged_rows, digest_of, fields_digest, record_digest, rows_digests, slot_digest
+from embedding.archive.digests import (
+    damaged_rows,
+    digest_of,
+    record_digest,
+    row_digest,
+    rows_digests,
+    slot_digest,
+    values_digest,
+)
 from embedding.archive.file import check_target, reading
 from embedding.archive.lagrange import LagrangeBlock
 from embedding.archive.memory import packed
@@ -194,19 +202,22 @@ class ArchiveWriter:
         first = {name: layout.first_row(shared, file["VTKHDF"][name], name, step) for name in self.blocks}
         data = {name: stored_in(file["VTKHDF"][name]["PointData"]) for name in self.blocks}
         scalars, tables = stored_in(own["scalars"]), stored_in(shared)
+        written = {}
         for field in fields:
-            put(self._known(data[field.block], field.name), first[field.block], field.values.astype("f4"))
+            here = self._known(data[field.block], field.name)
+            written[f"{field.block}/{field.name}"] = put(here, first[field.block], field.values.astype("f4"))
+        columns, newton = self._rows(own, record)
         for name, value in _scalars(record).items():
-            put(self._known(scalars, name), step, [[value]])
-        self._rows(own, record)
+            columns[f"scalars/{name}"] = put(self._known(scalars, name), step, [[value]])[0]
         entries = {"values": record.number, "row": step, "zero": 0, "zeros": 0, "one": 1}
         entries |= {layout.table("Row", block): row for block, row in first.items()}
         for block, begin in self._begin.items():
             entries |= {layout.table(place, block): value for place, value in begin.items()}
         for name, entry in entries.items():
-            put(tables[name], step, np.reshape(entry, (1, *tables[name].shape[1:])))
-        put(stored(own, "steps/rows_digest"), step, list(rows_digests(own, step, step + 1)))
-        put(stored(own, "steps/fields_digest"), step, [fields_digest(file, step)])
+            shape = (1, *tables[name].shape[1:])
+            columns[f"vtk/{name}"] = put(tables[name], step, np.reshape(entry, shape))[0]
+        put(stored(own, "steps/rows_digest"), step, [row_digest(columns, newton)])
+        put(stored(own, "steps/fields_digest"), step, [values_digest(written)])
         self._keep(own["checkpoint"][layout.SLOTS[(step + 1) % 2]], memory)
         _synchronise(file)
         for block in self.blocks:
@@ -223,13 +234,15 @@ class ArchiveWriter:
         put(stored(slot, "extent"), 0, [self.committed + 1, len(data), len(numbers)])
         put(stored(slot, "digest"), 0, slot_digest(slot))
 
-    def _rows(self, own: Any, record: StepRecord) -> None:
-        """The rows of a step in the tables of steps and of Newton iterations."""
+    def _rows(self, own: Any, record: StepRecord) -> tuple[dict[str, Any], dict[str, Any]]:
+        """The rows of a step in the tables of steps and of Newton iterations, as they are stored, by column."""
         step = self.committed
         steps, newton = stored_in(own["steps"]), stored_in(own["newton"])
         begin = int(rows(steps["newton_end"], step - 1, step)[0]) if step else 0
-        for name in layout.NEWTON_COLUMNS:
-            put(newton[name], begin, [getattr(one, name) for one in record.iterations])
+        turns = {
+            name: put(newton[name], begin, [getattr(one, name) for one in record.iterations])
+            for name in layout.NEWTON_COLUMNS
+        }
         row = {
             "number": record.number,
             "stage": _short(record.stage),
@@ -238,8 +251,7 @@ class ArchiveWriter:
             "factor_field": record.factor_field,
             "newton_end": begin + len(record.iterations),
         }
-        for name in layout.STEP_COLUMNS:
-            put(steps[name], step, [row[name]])
+        return {f"steps/{name}": put(steps[name], step, [row[name]])[0] for name in layout.STEP_COLUMNS}, turns
 
     def _end(self, file: Any, data: npt.NDArray[np.uint8]) -> None:
         finish = file["embedding/finish"]
