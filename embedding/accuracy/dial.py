@@ -27,6 +27,8 @@ SURE = 1.25
 (tests/solving/test_effectivity)."""
 SHARE = 0.6
 """Part of what the model leaves of the accuracy that the discretisation may take at the next attempt."""
+LEFT = 1e-4
+"""Part of the accuracy at which Newton's method may end; it has made one more update by then."""
 CANNOT = (Result.INTERRUPTED, Result.MAX_ARC, Result.MAX_STEPS, Result.LIMIT_POINT, Result.PULL_IN)
 """Ends of a path that are the scene's own, and no mesh's."""
 
@@ -52,7 +54,7 @@ def solve_to_accuracy(scene: Scene, solve: Callable[[Scene], Solution]) -> Solut
         return solve(scene)
     level, attempts = first_level(plan, scene.accuracy.relative), list[Attempt]()
     while True:
-        changes = level.changes(stated, plan)
+        changes = (*level.changes(stated, plan), *_tolerance(stated, scene.accuracy.relative))
         solution = solve(stated.with_overrides(changes))
         verdict = _judged(stated, plan, level, solution, scene.accuracy.relative)
         value = None if solution.error is None else solution.error.value
@@ -66,6 +68,12 @@ def solve_to_accuracy(scene: Scene, solve: Callable[[Scene], Solution]) -> Solut
         if verdict.scene is not None and verdict.level is not None:
             stated, level = verdict.scene, verdict.level
             plan = explain(stated)
+
+
+def _tolerance(scene: Scene, relative: float) -> tuple[str, ...]:
+    """Newton's method ends where what it leaves is next to nothing of the accuracy, unless the scene says where."""
+    needed, default = LEFT * relative, type(scene.solver).model_fields["tolerance"].default
+    return (f"solver.tolerance={needed}",) if scene.solver.tolerance == default < needed else ()
 
 
 def _judged(scene: Scene, plan: Plan, level: Level, solution: Solution, relative: float) -> Verdict:
