@@ -12,11 +12,12 @@ from embedding.solving.branches import onto_branch
 from embedding.solving.continuation import Condition, Corrector, Direction, Metric
 from embedding.solving.critical import Critical, Search
 from embedding.solving.curve import Point
+from embedding.solving.diagnosis import crowded, limit_reason
 from embedding.solving.events import Iteration
 from embedding.solving.memory import Memory, of_target, point_of
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
-from embedding.solving.ramp import step
+from embedding.solving.ramp import step, without_field
 from embedding.solving.remeshing import Remeshed
 from embedding.solving.result import Result
 from embedding.solving.session import Session
@@ -35,6 +36,15 @@ IMPATIENT = 0.2
 RETRIES = 5
 """How often a step into compression is halved, to end close to where it begins, and one that is too long to find the
 critical points in it."""
+
+
+ENDED = {
+    Result.INVERTED_AMBIENT: "the space around the shell gives way",
+    Result.STEP_BELOW_MINIMUM: "Newton's method no longer converges",
+    Result.LINEAR_SOLVER_FAILED: "the equations are singular",
+}
+LOST = tuple(ENDED)
+"""Ends of a path that say how it ended, and in which words; they may not be why."""
 
 
 class ArcStage:
@@ -92,10 +102,26 @@ class ArcStage:
         """Walk until the last goal has been met."""
         saved = self.path.save()
         try:
-            return self._follow()
+            return self._why(self._follow())
         except KeyboardInterrupt:
             self.path.restore(self._good if self._good is not None else saved)
             raise
+
+    def _why(self, reason: Result) -> Result:
+        """The true reason behind that of the last step: a load beyond its limit is not reached, however far the path
+        goes on behind that."""
+        if reason not in LOST:
+            return reason
+        session, walk = self.session, self._walk
+        tangent = None if walk is None else walk.here.tangent
+        gone_back = tangent is not None and tangent.parameter < 0.0 and self.stage.until is None
+        if gone_back and any(p.kind == "limit" and p.before_step > self._known for p in session.critical):
+            found = limit_reason(session.problem, self.begin, self.end)
+            session.detail = f"beyond its limit point the path was followed back to where {ENDED[reason]}"
+            return found
+        found, detail = crowded(session.problem, reason)
+        session.detail = detail or session.detail
+        return found
 
     def _follow(self) -> Result:
         walk = self._walk or self._launch()
@@ -195,6 +221,8 @@ class ArcStage:
                 return self._behind(fraction)
             reason = found
             self.session.cut(launch, found.name)
+        reason, detail = without_field(self.session, reason, self.path.target(fraction))
+        self.session.detail = detail or self.session.detail
         return reason
 
     def _behind(self, launched: float) -> Walk | Result:

@@ -9,16 +9,19 @@ import numpy as np
 from ngsolve import ET, IfPos, IntegrationRule
 
 from embedding.coupling.linear import LinearSolverError
+from embedding.solving.ahead import look_ahead
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
 from embedding.solving.result import Result
+from embedding.solving.room import reach
 from embedding.solving.state import State
 
 PROBE = 1e-4
 STEEP = 5.0
 COMPRESSION = -1e-3
-"""Finite difference of the response, how much steeper a limit point is than the landmark, and the smallest principal
-stress, in shear moduli, that still counts as no compression."""
+CROWDED = 0.9
+"""Finite difference of the response, how much steeper a limit point is than the landmark, the smallest principal
+stress, in shear moduli, that still counts as no compression, and the part of space that a shell may reach to."""
 
 
 def response_rate(problem: Problem, here: Target, towards: Target) -> float:
@@ -64,23 +67,72 @@ class Landmark:
 
 
 def diagnose(
-    problem: Problem, reason: Result, here: Target, end: Target, fraction: float, landmark: Landmark | None
-) -> Result:
-    """Refine the ``reason`` Newton gave at the last good state, ``fraction`` of the way through a stage to ``end``.
+    problem: Problem, reason: Result, here: Target, failed: Target, stage: Way, landmark: Landmark | None
+) -> tuple[Result, str]:
+    """Refine the ``reason`` why there is no step from the last good state, at the load ``here``, to ``failed``; and
+    words about it, if there is more to say than the reason's own.
 
-    Near a limit point at the load p* the response grows like (p* - p)^(-1/2). The steps were cut down to a tiny part of
-    the planned one, so between the ``landmark`` and here it must have grown manyfold; where Newton fails for another
-    reason it has hardly changed. A limit point comes first: the wild updates beside it may fail in any way, turning the
-    ambient over included.
+    The path is followed by arc length to see. Where it cannot be followed, this tells: near a limit point at the load
+    p* the response grows like (p* - p)^(-1/2). The steps were cut down to a tiny part of the planned one, so between
+    the ``landmark`` and here it must have grown manyfold; where Newton fails for another reason it has hardly changed.
+    A limit point comes first: the wild updates beside it may fail in any way, turning the ambient over included.
     """
-    if reason is Result.COMPRESSIVE_MEMBRANE or end.volume is not None or landmark is None:
-        return reason
-    before = landmark.measured(problem, end).rate
-    now = response_rate(problem, here, end) / (1 - fraction)
-    if before is not None and now > STEEP * before:
-        moving_field = _has_sources(problem) and end.field != here.field
-        return Result.PULL_IN if moving_field else Result.LIMIT_POINT
-    return reason
+    if reason is Result.COMPRESSIVE_MEMBRANE or stage.end.volume is not None:
+        return crowded(problem, reason)
+    end, detail = crowded(problem, reason)
+    if detail and not _grounded(problem):  # where space goes on, its mesh is no part of the structure
+        return end, detail
+    if problem.plan.coupling != "once":  # whose states are no equilibria of the joint system
+        ahead = look_ahead(problem, here, failed, stage.tolerance)
+        if ahead.limit is not None:
+            return limit_reason(problem, here, stage.end), largest(problem, ahead.limit)
+        if ahead.reached:
+            return crowded(problem, reason)
+    if landmark is not None:
+        before = landmark.measured(problem, stage.end).rate
+        now = response_rate(problem, here, stage.end) / (1 - stage.fraction)
+        if before is not None and now > STEEP * before:
+            return limit_reason(problem, here, stage.end), ""
+    return crowded(problem, reason)
+
+
+@dataclass(frozen=True)
+class Way:
+    """The stage to ``end``, of which a ``fraction`` is done, and the solver's ``tolerance``."""
+
+    end: Target
+    fraction: float
+    tolerance: float
+
+
+def limit_reason(problem: Problem, here: Target, end: Target) -> Result:
+    """What a limit point on the way to ``end`` is a limit of."""
+    return Result.PULL_IN if _has_sources(problem) and end.field != here.field else Result.LIMIT_POINT
+
+
+def largest(problem: Problem, limit: Target) -> str:
+    """The load of a limit point in words."""
+    return f"the load is largest at {told(problem, limit)}"
+
+
+def told(problem: Problem, load: Target) -> str:
+    """A load in words."""
+    named = load.report()
+    if problem.system.physics.field is None:
+        named.pop("field", None)
+    return ", ".join(f"{name} {value:.4g}" for name, value in named.items())
+
+
+def crowded(problem: Problem, reason: Result) -> tuple[Result, str]:
+    """The ``reason`` itself, unless the shell has come to the end of the meshed space: then that, and where."""
+    radius = problem.plan.sizes.radius
+    if reason not in (Result.STEP_BELOW_MINIMUM, Result.INVERTED_AMBIENT) or not problem.system.motions:
+        return reason, ""
+    far = reach(problem)
+    if problem.plan.sizes.box is not None or far < CROWDED * radius:
+        return reason, ""
+    ends = f"the meshed space ends at the radius {radius * problem.scales.length:.4g} m"
+    return Result.INVERTED_AMBIENT, f"the shell reaches to {far * problem.scales.length:.4g} m, and {ends}"
 
 
 def compressed(problem: Problem, scalars: dict[str, float]) -> bool:
@@ -112,6 +164,10 @@ def region_in_compression(problem: Problem, state: State) -> str:
 
 def _place(point: Any) -> str:
     return "[" + ", ".join(f"{c + 0.0:.3g}" for c in point) + "]"
+
+
+def _grounded(problem: Problem) -> bool:
+    return problem.scene.ambient is not None and problem.scene.ambient.outer == "grounded"
 
 
 def _has_sources(problem: Problem) -> bool:

@@ -10,26 +10,26 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-from ngsolve import CF, ET, InnerProduct, IntegrationRule, Inv, OuterProduct, Trace
+from ngsolve import InnerProduct, Inv, OuterProduct, Trace
 
 from embedding.plan.coefficients import BENT, CLOSED_FACES, MEMBRANE, ROBIN
 from embedding.plan.effects import Effects
 from embedding.plan.loading import STRETCHES, TIGHTENED, is_displacement
 from embedding.plan.response import Answer
-from embedding.scene.checks_field import axes_of, centre_of_space
 from embedding.shell.derivatives import Derivatives
 from embedding.shell.kinematics import Kinematics
 from embedding.solving.events import StepRecord
 from embedding.solving.problem import Problem
+from embedding.solving.room import gap, reach
 from embedding.solving.sensitivity import moved, slope
 from embedding.solving.state import State
 
 LEAST = 0.05
 """A part of the load that is smaller is too small to measure the response to the whole load on."""
 NOTHING = 1e-12
-"""Energies below this part of the elastic one are rounding."""
+UNBENT = 1e-20
+"""Energies of bending below the first part of the elastic one are rounding, and below the second part of that of a
+shell bent to the radius of its own size."""
 
 
 class Neglected:
@@ -115,32 +115,11 @@ class Neglected:
     def far_field(self) -> float:
         """What Robin's condition misses of the field's load, by how far the deformed shell reaches."""
         sizes = self.problem.plan.sizes
-        return self.response * self.field_share * ROBIN * (self._reach / sizes.radius) ** 5
-
-    @property
-    def _reach(self) -> float:
-        """Distance of the farthest point of the deformed shell from the centre of space, in shell sizes."""
-        scene, away = self.problem.scene, self._places / self.problem.scales.length
-        away[:, axes_of(scene) - 1] -= centre_of_space(scene) / self.problem.scales.length
-        return float(np.linalg.norm(away, axis=1).max())
-
-    @cached_property
-    def _places(self) -> npt.NDArray[np.float64]:
-        """Where points of the deformed mid-surface are, (n, 3) in m, several in every element."""
-        domain = self.problem.domain
-        rule = IntegrationRule(ET.TRIG if domain.mesh.dim == 3 else ET.SEGM, 2 * domain.sizes.order)
-        points = domain.mesh.MapToAllElements(rule, domain.shell)
-        place = domain.reduction.position + self.problem.system.unknowns.field("u")
-        return self.problem.embed(np.asarray(CF(place)(points)))
+        return self.response * self.field_share * ROBIN * (reach(self.problem) / sizes.radius) ** 5
 
     @cached_property
     def _gap(self) -> float:
-        """Narrowest distance between the deformed shell and a body beside it, in shell sizes; infinite without any."""
-        scene = self.problem.scene
-        bodies = scene.ambient.bodies if scene.ambient is not None else ()
-        axes, places = axes_of(scene), [(float(a), float(b), float(c)) for a, b, c in self._places]
-        gaps = (body.clearance(place, axes) for body in bodies for place in places)
-        return min(gaps, default=math.inf) / self.problem.scales.length
+        return gap(self.problem)
 
     @cached_property
     def field_share(self) -> float:
@@ -178,7 +157,7 @@ class Neglected:
         unknowns = self.problem.system.unknowns
         elastic = self.problem.system.lagrangian.elastic_energy({name: unknowns.field(name) for name in unknowns.names})
         carried = self.problem.domain.shell_integral(self._slope_energy(k)) if self.problem.domain.is_flat else elastic
-        if bent <= NOTHING * elastic:
+        if bent <= max(NOTHING * elastic, UNBENT * self._thickness**3):
             return 0.0
         return float(self.response * bent / carried) if carried > 0.0 else math.inf
 

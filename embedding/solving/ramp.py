@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 
 from embedding.scene import Stage
-from embedding.solving.diagnosis import Landmark, diagnose
+from embedding.solving.ahead import look_ahead
+from embedding.solving.diagnosis import Landmark, Way, diagnose, largest
 from embedding.solving.events import Iteration
 from embedding.solving.memory import Memory, of_target
 from embedding.solving.path import DEFAULT_STEPS, Stepper, Target
@@ -38,9 +40,20 @@ class Ramp:
             if reason is None:
                 continue
             if not stepper.cut():
-                return diagnose(session.problem, reason, session.at, end, stepper.accepted, self._landmark)
+                return self._why(reason, target)
             session.cut(stepper.relative_length, reason.name)
         return Result.CONVERGED
+
+    def _why(self, reason: Result, failed: Target) -> Result:
+        """The true reason why the step to ``failed`` could not be taken."""
+        session, problem, detail = self.session, self.session.problem, ""
+        if session.at_rest:
+            reason, detail = without_field(session, reason, failed)
+        if not detail:
+            way = Way(self.end, self._stepper.accepted, session.scene.solver.tolerance)
+            reason, detail = diagnose(problem, reason, session.at, failed, way, self._landmark)
+        session.detail = detail or session.detail
+        return reason
 
     def _measure(self) -> None:
         """The mesh that the landmark belongs to may be given up."""
@@ -85,6 +98,26 @@ def _remeshed(session: Session) -> bool:
         return outcome.reason is None
 
     return session.remesh(settle)
+
+
+def without_field(session: Session, reason: Result, failed: Target) -> tuple[Result, str]:
+    """Why there is no step out of rest to the load ``failed``, and words about it, if it is the field's doing: a
+    membrane that its loads have not tensioned yet may be pulled in by any."""
+    problem, before = session.problem, session.at
+    alone = replace(failed, field=before.field)
+    if alone in (failed, before) or session.solver is not session.newton:
+        return reason, ""
+    saved = problem.system.save()
+    session.load(alone)
+    try:
+        if session.solver.solve(lambda _: None, at_rest=True).reason is None:
+            ahead = look_ahead(problem, alone, failed, session.scene.solver.tolerance)
+            if ahead.limit is not None:
+                known = f"without the field there is equilibrium, with it {largest(problem, ahead.limit)}"
+                return Result.PULL_IN, f"{known}; tension the shell in a stage before that of the field"
+        return reason, ""
+    finally:
+        session.go_back(saved)
 
 
 def step(session: Session, stage: Stage, target: Target) -> Result | None:

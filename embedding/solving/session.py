@@ -238,6 +238,6 @@ class Session:
             + (f", field {point.factor_field:.5g}" if with_field else "")
             for point in self.critical
         )
-        told = self.no_mesh if result is Result.INVERTED_AMBIENT and self.no_mesh else self.detail
+        told = self.detail or (self.no_mesh if result is Result.INVERTED_AMBIENT else "")
         detail = f"{told}: " if told else ""
         return f"stopped {done} (last good load: {where}{passed}): {detail}{result.advice}"

@@ -1,0 +1,67 @@
+"""Is there a limit point of the load ahead? The path is followed a little way by arc length, to see, and left again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from embedding.solving.continuation import Corrector, at_parameter
+from embedding.solving.critical import Search
+from embedding.solving.newton import Clock
+from embedding.solving.path import Target
+from embedding.solving.problem import Problem
+from embedding.solving.result import Result
+from embedding.solving.shell_path import ShellPath
+from embedding.solving.walk import Stride, Walk, start
+
+STEPS, ITERATIONS = 40, 12
+"""The most steps that are looked ahead, and the most iterations of one."""
+STRIDE = Stride(0.1, 0.25, 1e-3)
+
+
+@dataclass(frozen=True)
+class Ahead:
+    """What was seen: the load of a ``limit`` point, or that the end is ``reached`` without one; else nothing."""
+
+    limit: Target | None = None
+    reached: bool = False
+
+
+def look_ahead(problem: Problem, here: Target, end: Target, tolerance: float) -> Ahead:
+    """Follow the path from the present state, in equilibrium at the load ``here``, towards the load ``end``.
+
+    The state is left as it was.
+    """
+    path = ShellPath(problem, here, end, Clock())
+    corrector, saved = Corrector(path, tolerance, ITERATIONS), path.save()
+    try:
+        return _seen(path, corrector)
+    finally:
+        path.restore(saved)
+
+
+def _seen(path: ShellPath, corrector: Corrector) -> Ahead:
+    goal = at_parameter(1.0)
+    found = start(corrector, goal, _unwatched)
+    if isinstance(found, Result):
+        return Ahead()
+    metric, point = found
+    walk = Walk(corrector, metric, point, goal, STRIDE, _unwatched, _untold)
+    for _ in range(STEPS):
+        if walk.advance() is not None:
+            return Ahead()
+        if walk.done:
+            return Ahead(reached=True)
+        before, tangent = walk.before, walk.here.tangent
+        if before is not None and tangent is not None and tangent.parameter < 0.0:
+            critical = Search(corrector, metric, _unwatched).between(before, walk.here) or []
+            turns = [one.parameter for one in critical if one.kind == "limit"]
+            return Ahead(path.target(turns[0] if turns else max(before.parameter, walk.here.parameter)))
+    return Ahead()
+
+
+def _unwatched(number: int, size: float, decrement: float) -> None:
+    """Iterations on the way are not told."""
+
+
+def _untold(length: float, reason: Result) -> None:
+    """Nor are steps that were cut."""
