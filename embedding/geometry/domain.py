@@ -41,6 +41,7 @@ from ngsolve import (
 
 from embedding.errors import Problem, SceneError
 from embedding.geometry import curvature, meshing
+from embedding.geometry.counting import TooLargeError
 from embedding.geometry.cut import CloseSheetsError, JunctionError
 from embedding.geometry.facets import Facets, Integers, Mask, OneSidedError
 from embedding.geometry.matching import Matching
@@ -321,6 +322,8 @@ def _built(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Domain:
         raise SceneError([Problem(f"ambient.bodies.{error.number}", f"not allowed here: {error}")]) from error
     except (CloseSheetsError, UnclearSidesError) as error:
         raise _unfit(f"{error}: make the mesh on the shell finer") from error
+    except TooLargeError as error:
+        raise SceneError([Problem(error.field, f"{error}: make elements larger")]) from error
     except NoMeshError as error:
         raise _unfit(f"{error}: choose another size") from error
     if np.any((domain.facets.neighbours == 1) & ~domain.facets.on_edges):

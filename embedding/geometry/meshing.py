@@ -9,8 +9,9 @@ from typing import Any
 import netgen.meshing as netgen
 import numpy as np
 import numpy.typing as npt
-from ngsolve import VOL, Mesh
+from ngsolve import BND, VOL, Mesh
 
+from embedding.geometry.counting import refuse_too_large
 from embedding.geometry.cut import BOTTOM, RIM, TOP, Cut, Integers
 from embedding.geometry.facets import Facets
 from embedding.geometry.outline import NoMeshError, Outline
@@ -39,12 +40,13 @@ def mesh(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Meshed:
     """Mesh of the dimensionless ``shape``: lengths are divided by its size.
 
     Raises:
-        BodyError, NoMeshError: no room for a body, no mesh of these sizes.
+        BodyError, TooLargeError, NoMeshError: no room for a body, in memory for the mesh, no mesh of these sizes.
         JunctionError, CloseSheetsError, OneSidedError, UnclearSidesError: the shell has no two sides in its ambient.
     """
     geometry = outline(shape, reduction)
     none = np.zeros((0, 2), np.int64)
     if not sizes.radius:
+        refuse_too_large(geometry, reduction, sizes)
         alone = geometry.mesh(sizes)
         return Meshed(alone, tuple(range(len(alone.GetBoundaries()))), none[:, 0], none)
 
@@ -67,16 +69,28 @@ def around(geometry: Outline, reduction: Reduction, sizes: MeshSizes, up: Callab
     facets = Facets(trial, trial.Boundaries("shell"))
     elements = np.array([[v.nr for v in element.vertices] for element in trial.Elements(VOL)])
     cut = Cut(elements, facets.corners)
-    rim_vertices, rim_edges = cut.rim_vertices, cut.rim_edges
-    points = np.array([v.point for v in trial.vertices])
     element, facet = cut.beside
     if np.any(np.bincount(facet, minlength=len(facets.corners)) != 2):  # netgen leaves faces out and only says so
         raise NoMeshError("the mesh generator left out what is beside the shell")
+    ends = np.array([[v.nr for v in element.vertices] for element in trial.Elements(BND)])
+    if _has_holes(elements, ends):
+        raise NoMeshError("the mesh generator left out a part of space")
+    rim_vertices, rim_edges = cut.rim_vertices, cut.rim_edges
+    points = np.array([v.point for v in trial.vertices])
     reach = points[elements[element]].mean(axis=1) - points[facets.corners[facet]].mean(axis=1)
     sides = cut.sides(np.einsum("ij,ij->i", reach, up(facets)[facet]) > 0)
     materials = np.array([element.mat for element in trial.Elements(VOL)])
     _relabel(raw, _materials(materials, sides, cut.rooms()), reduction)
     return Meshed(Mesh(raw), faces, rim_vertices, rim_edges)
+
+
+def _has_holes(elements: Integers, boundary: Integers) -> bool:
+    """Does a mesh end anywhere else than at its boundary? Vertices (n, d + 1) of its elements, (m, d) of the latter."""
+    corners = elements.shape[1]
+    sides = np.concatenate([np.delete(elements, corner, axis=1) for corner in range(corners)])
+    found, count = np.unique(np.sort(sides, axis=1), axis=0, return_counts=True)
+    single = np.unique(np.concatenate([found[count == 1], np.sort(boundary, axis=1)]), axis=0)
+    return len(single) > len(np.unique(np.sort(boundary, axis=1), axis=0))
 
 
 def _faces(raw: netgen.Mesh, reduction: Reduction) -> tuple[int, ...]:

@@ -16,6 +16,7 @@ from netgen.occ import Box, Glue, MoveTo, OCCGeometry, Pnt, WorkPlane
 from netgen.occ import Sphere as SphereSolid
 from ngsolve import BND, Mesh
 
+from embedding.geometry.counting import refuse_too_large
 from embedding.geometry.outline import CurveOutline, Outline, SurfaceOutline, generated
 from embedding.geometry.reduction import Reduction
 from embedding.geometry.sizes import MeshSizes
@@ -41,9 +42,11 @@ def raw_mesh(outline: Outline, reduction: Reduction, sizes: MeshSizes) -> netgen
 
     Raises:
         BodyError: a body touches the shell or another body, or reaches beyond the end of space.
+        TooLargeError: the mesh would not fit into memory.
         NoMeshError: the mesh generator gave up.
     """
     sizes = _near_bodies(outline, reduction, sizes)
+    refuse_too_large(outline, reduction, sizes)
     space = _Space(reduction, sizes)
     if isinstance(outline, SurfaceOutline):
         outline.prepare(sizes)

@@ -79,9 +79,18 @@ def _decision(kind: str, pinned: str, number: float, allowance: Allowance) -> De
 def reach_of(scene: Scene, ambient: Ambient) -> float:
     """Distance from the centre of space (plane strain: of its axis) of the farthest point of the shell and of the
     bodies, or a little more."""
-    shape = scene.shell.shape
+    seen = 2 if scene.shell.shape.reductions == ("plane-strain",) else 3
+    others = [body.farthest(seen) + abs(_level(ambient)) for body in ambient.bodies if not isinstance(body, HalfSpace)]
+    return max([shell_reach(scene, ambient), *(other / scene.shell.shape.size for other in others)])
+
+
+def shell_reach(scene: Scene, ambient: Ambient) -> float:
+    """The same of the shell alone."""
+    shape, level = scene.shell.shape, _level(ambient)
     seen = 2 if shape.reductions == ("plane-strain",) else 3
-    level = next((body.level for body in ambient.bodies if isinstance(body, HalfSpace)), 0.0)
-    points = [math.hypot(*point[: seen - 1], point[seen - 1] - level) for point in shape.sample_points()]
-    others = [body.farthest(seen) + abs(level) for body in ambient.bodies if not isinstance(body, HalfSpace)]
-    return max([*points, *others]) / shape.size
+    points = (math.hypot(*point[: seen - 1], point[seen - 1] - level) for point in shape.sample_points())
+    return max(points) / shape.size
+
+
+def _level(ambient: Ambient) -> float:
+    return next((body.level for body in ambient.bodies if isinstance(body, HalfSpace)), 0.0)

@@ -9,7 +9,7 @@ from embedding.geometry.domain import MeshSizes
 from embedding.plan.allowance import Allowance
 from embedding.plan.decisions import Decision
 from embedding.plan.effects import Effects
-from embedding.plan.far_field import choose_far_field
+from embedding.plan.far_field import choose_far_field, shell_reach
 from embedding.plan.field import ROOM
 from embedding.scene import Ambient, Body, BoxBody, CylinderBody, HalfSpace, Scene, SphereBody
 from embedding.scene.checks_electrodes import one_conductor
@@ -18,6 +18,10 @@ SHELL_SIZE = {"3d": 0.4, "axisymmetric": 0.2, "plane-strain": 0.2}
 FLAT_SIZE = 0.35
 AT_RIMS = {"3d": 0.25, "axisymmetric": 0.05, "plane-strain": 0.05}
 """Elements along a rim or a conductor's sharp edge, where the field is singular, over those on the rest of it."""
+
+BULGE = 0.5
+"""A straight side of so much of the root of the room to the end of space, both in radii, stays within 3 per cent of it
+on a sphere."""
 
 
 def choose_sizes(
@@ -30,6 +34,9 @@ def choose_sizes(
     shell = chosen.shell_size / size if chosen.shell_size else default
     edges = tuple((edge, length / size) for edge, length in chosen.edge_size.items())
     origin = "stated by the scene" if chosen.shell_size else f"default of {reduction}"
+    room = _room(scene, scene.ambient, effects, allowance) if scene.ambient is not None and meshed else math.inf
+    if (fits := max(room, BULGE * math.sqrt(room))) < shell:
+        shell, origin = fits, "to fit into the room between the shell and the end of space"
     radius = scene.shell.shape.curvature_radius
     bend = None if radius is None else shell * size / radius
     across = "element over radius of curvature" if bend is not None else ""
@@ -47,6 +54,15 @@ def choose_sizes(
     bodies = tuple(_meshed(body, size) for body in scene.ambient.bodies)
     sizes = MeshSizes(shell, far, radius, chosen.grading, chosen.order, edges, beyond=beyond, box=box, bodies=bodies)
     return sizes, tuple(decisions)
+
+
+def _room(scene: Scene, ambient: Ambient, effects: Effects, allowance: Allowance) -> float:
+    """Between the shell and the sphere or circle where the meshed space ends; infinite where it does not, or not around
+    all of the shell."""
+    if ambient.box is not None:
+        return math.inf
+    room = choose_far_field(scene, ambient, effects, allowance).radius - shell_reach(scene, ambient)
+    return room if room > 0.0 else math.inf
 
 
 def rim_size(scene: Scene, sizes: MeshSizes) -> float | None:

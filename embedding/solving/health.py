@@ -21,8 +21,8 @@ from embedding.solving.solution import Check
 from embedding.solving.state import State
 
 Floats = npt.NDArray[np.float64]
-UNBALANCED = 1e-6
-"""Nodal forces out of balance over those of the loads."""
+UNBALANCED, ROUNDING = 1e-6, 1e-12
+"""Nodal forces out of balance over those of the loads, and over the stiffness, below which rounding makes them."""
 FLATTENED = 0.05
 """Quality of an element (1 if regular) from which on its matrix and its interpolation suffer."""
 NEAR_LIMIT = 10.0
@@ -55,7 +55,8 @@ def _checks(problem: Problem, estimates: Estimates) -> Iterator[Check]:
 
 
 def _residual(problem: Problem, loads: float) -> Check:
-    """The forces that are not in balance, in N (plane strain: N/m), against the loads, or the stiffness without any."""
+    """The forces that are not in balance, in N (plane strain: N/m), against the loads, or the stiffness without any
+    and where loads are next to nothing."""
     system, scales = problem.system, problem.scales
     free = system.unknowns.trace.free
     rows = system.residual().FV().NumPy()[system.unknowns.range("u")][free]
@@ -63,7 +64,8 @@ def _residual(problem: Problem, loads: float) -> Check:
     size = float(np.linalg.norm(rows))
     natural = problem.scene.shell.thickest / scales.length
     unit = "N/m" if lengths == 1 else "N"
-    allowed = UNBALANCED * (loads or natural) * scales.stress * scales.length**lengths
+    allowed = max(UNBALANCED * loads, (ROUNDING if loads else UNBALANCED) * natural)
+    allowed *= scales.stress * scales.length**lengths
     value = size * scales.stress * scales.length**lengths
     return Check("residual", value, unit, f"<= {allowed:.1g} {unit}", value <= allowed, "nodal forces out of balance")
 

@@ -17,6 +17,10 @@ from embedding.solving.session import Session
 from embedding.solving.stability import unstable_modes
 
 
+STILL = 1e-12
+"""Displacement over size of a shell that its loads do not move."""
+
+
 class Ramp:
     """One stage walked from ``start`` to ``end`` in planned steps; a step that fails is cut."""
 
@@ -111,10 +115,11 @@ def without_field(session: Session, reason: Result, failed: Target) -> tuple[Res
     session.load(alone)
     try:
         if session.solver.solve(lambda _: None, at_rest=True).reason is None:
+            loaded = session.state.displacement > STILL
             ahead = look_ahead(problem, alone, failed, session.scene.solver.tolerance)
             if ahead.limit is not None:
-                known = f"without the field there is equilibrium, with it {largest(problem, ahead.limit)}"
-                return Result.PULL_IN, f"{known}; tension the shell in a stage before that of the field"
+                slack = "; tension the shell in a stage before that of the field" if loaded else ""
+                return Result.PULL_IN, largest(problem, ahead.limit) + slack
         return reason, ""
     finally:
         session.go_back(saved)

@@ -216,9 +216,19 @@ class Enriched(Problem):
                 return True
         return False
 
-    def responses(self, target: Target) -> dict[str, Scalars]:
+    def responses(self, target: Target) -> dict[str, Scalars] | None:
         """d (scalar) / d ln (load) at the state of :meth:`improve`: of "all" loads together and of the "field" alone,
-        whose own voltages and applied fields count as they are."""
+        whose own voltages and applied fields count as they are. None where the tangent is singular, as at a limit
+        point."""
+        kept = self.system.save()
+        try:
+            return self._responses(target)
+        except LinearSolverError:
+            self._load(target.mechanical, target.field)
+            self._put(kept)
+            return None
+
+    def _responses(self, target: Target) -> dict[str, Scalars]:
         system, kept = self.system, self.system.save()
         start, found = self.state.scalars(), dict[str, Scalars]()
         present = self._forces(target, 1.0, 1.0)
@@ -244,11 +254,14 @@ class Enriched(Problem):
         return found
 
     def condition(self) -> float:
-        """Largest over smallest eigenvalue of the tangent at hand, by a few steps of the power method from either end.
+        """Largest over smallest eigenvalue of the tangent at hand, by a few steps of the power method from either end;
+        infinite for a singular one."""
+        try:
+            return self._condition()
+        except LinearSolverError:
+            return math.inf
 
-        Raises:
-            LinearSolverError: the tangent is singular.
-        """
+    def _condition(self) -> float:
         system, generator = self.system, np.random.default_rng(1)
         start = generator.standard_normal(system.unknowns.space.ndof)
         sizes = []

@@ -75,17 +75,21 @@ def estimate_errors(problem: Problem, target: Target, steps: Sequence[StepRecord
         richer = Enriched(problem, domain)
         changes = richer.improve(target, scalars, _straight(problem))
         solved = changes is not None and not richer.held
-        responses = richer.responses(target) if solved else {}
+        responses = richer.responses(target) if solved else None
         condition = richer.condition() if solved else None
+    singular = solved and responses is None
+    method = _method(problem, changes, singular=singular)
+    responses = responses or {}
     limit, wall = _beyond(problem), wall_of(problem, scalars)
     sources = _discretisation(problem, changes, scalars, limit)
     sources |= _theory(problem, wall, scalars, responses) | _field(problem, wall, scalars, responses)
     sources["solver"] = {name: _last_update(problem, steps[-1]) for name in scalars if _moves(name)}
-    method = _method(problem, changes)
     whole = {} if changes is None else {n: limit * change for n, change in changes.whole.items()}
     errors = {name: _sum(name, value, sources, whole, method) for name, value in scalars.items()}
     moved, answer = scalars.get("displacement", 0.0), responses.get("all", {}).get("displacement")
     response = None if answer is None or moved == 0.0 else abs(answer / moved)
+    if singular:
+        response = math.inf
     return Estimates(errors, response, condition, richer.loads)
 
 
@@ -133,10 +137,12 @@ def _not_beyond(parts: Scalars, sources: Sequence[str], together: float) -> Scal
     return {source: part * most / apart for source, part in found.items()} if apart > most else {}
 
 
-def _method(problem: Problem, changes: Changes | None) -> str:
+def _method(problem: Problem, changes: Changes | None, *, singular: bool) -> str:
     order, left_out = problem.domain.sizes.order, []
     if changes is None:
         left_out.append("more than that the mesh does not resolve this state")
+    if singular:
+        left_out.append("what errors of the loads do, at a state whose tangent is singular,")
     if problem.domain.rims and not problem.plan.bending and not problem.domain.is_flat:
         left_out.append("bending at held edges")
     if problem.plan.extent == "given":
