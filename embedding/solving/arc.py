@@ -17,7 +17,7 @@ from embedding.solving.events import Iteration
 from embedding.solving.memory import Memory, of_target, point_of
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
-from embedding.solving.ramp import step, without_field
+from embedding.solving.ramp import out_of_rest, step
 from embedding.solving.remeshing import Remeshed
 from embedding.solving.result import Result
 from embedding.solving.session import Session
@@ -221,7 +221,7 @@ class ArcStage:
                 return self._behind(fraction)
             reason = found
             self.session.cut(launch, found.name)
-        reason, detail = without_field(self.session, reason, self.path.target(fraction))
+        reason, detail = out_of_rest(self.session, reason, self.path.target(fraction))
         self.session.detail = detail or self.session.detail
         return reason
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import replace
 
 from embedding.scene import Stage
 from embedding.solving.ahead import look_ahead
-from embedding.solving.diagnosis import Landmark, Way, diagnose, largest
+from embedding.solving.diagnosis import Landmark, Way, diagnose, largest, response_rate
 from embedding.solving.events import Iteration
 from embedding.solving.memory import Memory, of_target
 from embedding.solving.path import DEFAULT_STEPS, Stepper, Target
@@ -15,7 +16,6 @@ from embedding.solving.problem import Problem
 from embedding.solving.result import Result
 from embedding.solving.session import Session
 from embedding.solving.stability import unstable_modes
-
 
 STILL = 1e-12
 """Displacement over size of a shell that its loads do not move."""
@@ -50,14 +50,14 @@ class Ramp:
 
     def _why(self, reason: Result, failed: Target) -> Result:
         """The true reason why the step to ``failed`` could not be taken."""
-        session, problem, detail = self.session, self.session.problem, ""
+        session, found, detail = self.session, reason, ""
         if session.at_rest:
-            reason, detail = without_field(session, reason, failed)
-        if not detail:
+            found, detail = out_of_rest(session, reason, failed)
+        if found is reason:
             way = Way(self.end, self._stepper.accepted, session.scene.solver.tolerance)
-            reason, detail = diagnose(problem, reason, session.at, failed, way, self._landmark)
+            found, detail = diagnose(session.problem, reason, session.at, failed, way, self._landmark)
         session.detail = detail or session.detail
-        return reason
+        return found
 
     def _measure(self) -> None:
         """The mesh that the landmark belongs to may be given up."""
@@ -104,23 +104,34 @@ def _remeshed(session: Session) -> bool:
     return session.remesh(settle)
 
 
-def without_field(session: Session, reason: Result, failed: Target) -> tuple[Result, str]:
-    """Why there is no step out of rest to the load ``failed``, and words about it, if it is the field's doing: a
-    membrane that its loads have not tensioned yet may be pulled in by any."""
+def out_of_rest(session: Session, reason: Result, failed: Target) -> tuple[Result, str]:
+    """Why there is no step out of rest to the load ``failed``, and words about it, if there is more to say than
+    ``reason``: the field may pull in a membrane that its loads have not tensioned yet, and nothing may hold one."""
     problem, before = session.problem, session.at
-    alone = replace(failed, field=before.field)
-    if alone in (failed, before) or session.solver is not session.newton:
+    if reason is Result.COMPRESSIVE_MEMBRANE:
         return reason, ""
-    saved = problem.system.save()
+    alone = replace(failed, field=before.field)
+    if session.solver is session.newton and alone not in (failed, before):
+        limit, moved = _limit_of_field(session, alone, failed)
+        if limit is not None:
+            slack = "; tension the shell in a stage before that of the field" if moved else ""
+            return Result.PULL_IN, largest(problem, limit) + slack
+    if reason is Result.STEP_BELOW_MINIMUM and not math.isfinite(response_rate(problem, before, failed)):
+        return Result.LINEAR_SOLVER_FAILED, ""
+    return reason, ""
+
+
+def _limit_of_field(session: Session, alone: Target, failed: Target) -> tuple[Target | None, bool]:
+    """The limit point of the field on the way to ``failed`` from the load ``alone``, out of rest, if there is one; and
+    whether that moves the shell."""
+    system = session.problem.system
+    saved = system.save()
     session.load(alone)
     try:
-        if session.solver.solve(lambda _: None, at_rest=True).reason is None:
-            loaded = session.state.displacement > STILL
-            ahead = look_ahead(problem, alone, failed, session.scene.solver.tolerance)
-            if ahead.limit is not None:
-                slack = "; tension the shell in a stage before that of the field" if loaded else ""
-                return Result.PULL_IN, largest(problem, ahead.limit) + slack
-        return reason, ""
+        if session.solver.solve(lambda _: None, at_rest=True).reason is not None:
+            return None, False
+        moved = session.state.displacement > STILL
+        return look_ahead(session.problem, alone, failed, session.scene.solver.tolerance).limit, moved
     finally:
         session.go_back(saved)
 

@@ -6,7 +6,7 @@ from importlib import import_module
 
 from embedding.bench.extremes.cell import Cell
 
-FAMILIES = ("thickness",)
+FAMILIES = ("thickness", "ratios", "voltages", "remanence", "radii", "gaps", "meshes")
 """In the order of the map."""
 
 
