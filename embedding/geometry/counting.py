@@ -56,7 +56,8 @@ def _elements(outline: Outline, reduction: Reduction, sizes: MeshSizes) -> Itera
     else:
         area = sum(face.mass for face in outline.shape.faces) / (TRIANGLE * sizes.shell**2)
         yield "shell_size", (LAYERS if around else 1.0) * area
-        along = ((edge.mass, sizes.along(edge.name or "")) for edge in outline.shape.edges if real(edge))
+        edges = filter(real, outline.shape.edges)
+        along = ((edge.mass, sizes.along(outline.name(edge) or edge.name or "")) for edge in edges)
         yield "edge_size", sum(length / size for length, size in along if size < sizes.shell)
     if around and reduction.dimension == 3:
         part = 2.0 ** -len(reduction.planes)

@@ -70,7 +70,7 @@ class Run(Session):
             with part("estimate"):
                 if result.ok:
                     estimates = estimate_errors(self.problem, self.at, self.steps)
-                    errors, health = estimates.errors, check_health(self.problem, estimates)
+                    errors, health = estimates.errors, check_health(self.problem, estimates, self.steps)
         except KeyboardInterrupt:
             result, errors = Result.INTERRUPTED, {}
         message = result.advice if result.ok else self.told(result)

@@ -6,7 +6,7 @@ An error estimate says how far the answer is off; these say whether the mesh and
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,9 @@ import numpy.typing as npt
 from ngsolve import BND, VOL, IfPos
 
 from embedding.geometry.positions import reference_position
+from embedding.solving.energies import last_step
 from embedding.solving.estimate import Estimates
+from embedding.solving.events import StepRecord
 from embedding.solving.problem import Problem
 from embedding.solving.remeshing import WORN
 from embedding.solving.solution import Check
@@ -31,9 +33,10 @@ SINGULAR = 1e14
 """Condition of the tangent beyond which rounding reaches the answer's third digit, after one step of refinement."""
 
 
-def check_health(problem: Problem, estimates: Estimates) -> tuple[Check, ...]:
-    """All checks at the present, converged state, of which ``estimates`` are known."""
-    return tuple(_checks(problem, estimates))
+def check_health(problem: Problem, estimates: Estimates, steps: Sequence[StepRecord]) -> tuple[Check, ...]:
+    """All checks at the present, converged state, the last of ``steps``, of which ``estimates`` are known."""
+    balance = None if problem.plan.coupling == "once" else last_step(problem, steps)
+    return (*_checks(problem, estimates), *(() if balance is None else (balance,)))
 
 
 def _checks(problem: Problem, estimates: Estimates) -> Iterator[Check]:

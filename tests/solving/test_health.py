@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,8 +11,11 @@ import pytest
 
 from embedding import Solution, load_scene, open_archive, solve
 from embedding.cli import main
+from embedding.coupling.linear import LinearSolverError
 from embedding.plan import explain
 from embedding.solving import health
+from embedding.solving.energies import last_step
+from embedding.solving.estimate.enriched import Enriched
 from embedding.solving.problem import Problem
 from problems import charged_balloon, circular_membrane, grounded_balloon, half_cylinder, slit_annulus
 
@@ -22,7 +26,9 @@ def named(solution: Solution, topic: str) -> health.Check:
 
 def test_all_is_well_in_a_charged_balloon() -> None:
     solution = charged_balloon.run("path=[{steps=3}]")
-    assert [one.topic for one in solution.health] == ["residual", "space", "elements", "limit point", "condition"]
+    assert [one.topic for one in solution.health] == [
+        "residual", "space", "elements", "limit point", "condition", "energies",
+    ]  # fmt: skip
     assert all(one.good for one in solution.health)
     assert named(solution, "residual").unit == "N"
     assert named(solution, "space").value == solution["min_jacobian"][-1]
@@ -39,6 +45,35 @@ def test_near_a_limit_point_the_response_grows_without_end() -> None:
     first, second, third = (one.value for one in found)
     assert second / first > 1.5 and third / second > 1.5
     assert found[0].good and not found[-1].good
+
+
+def test_at_a_limit_point_itself_the_answer_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    """There the tangent is singular, and nothing can be solved with it: the answer stands, without an end to its
+    response."""
+
+    def singular(*_: object) -> None:
+        raise LinearSolverError("planted")
+
+    monkeypatch.setattr(Enriched, "_responses", singular)
+    monkeypatch.setattr(Enriched, "_condition", singular)
+    solution = charged_balloon.run("path=[{steps=3}]")
+    assert solution.result.ok and solution.error is not None
+    assert "singular" in solution.error.method
+    for topic in ("limit point", "condition"):
+        assert named(solution, topic).value == math.inf and not named(solution, topic).good
+
+
+def test_energies_balance_over_the_last_step() -> None:
+    """A step that stores what it was not given is found."""
+    solution = charged_balloon.run("path=[{steps=6}]")
+    assert named(solution, "energies").value < 0.1
+    problem = Problem(solution.scene, explain(solution.scene))
+    last = solution.steps[-1]
+    for factor, good in ((1.0, True), (1.1, False), (0.9, False)):
+        energy = factor * last.scalars["elastic_energy"]
+        planted = (*solution.steps[:-1], replace(last, scalars=last.scalars | {"elastic_energy": energy}))
+        check = last_step(problem, planted)
+        assert check is not None and check.good is good
 
 
 def test_the_response_is_that_of_the_displacement() -> None:
