@@ -2,7 +2,8 @@
 
 Equilibria store exactly the work that is done on them. Of a step that work is known between two bounds, with the forces
 at its beginning and those at its end; the trapezoidal rule lies half way. So the energy that is stored may be off that
-rule by half the distance of the bounds, as long as forces grow or fall along the step. The whole path, with the error
+rule by half the distance of the bounds, as long as forces grow or fall along the step; a quarter of it is what a force
+leaves that grows from nothing like the third power of the way. The whole path, with the error
 of its rules, is :mod:`embedding.post.balance`.
 """
 
@@ -15,7 +16,7 @@ from embedding.solving.events import StepRecord
 from embedding.solving.problem import Problem
 from embedding.solving.solution import Check
 
-HALF, ROUNDING, NOTHING = 0.5, 1e-9, 1e-14
+PART, ROUNDING, NOTHING = 0.25, 1e-9, 1e-14
 """The most that a step may be off, over the distance of the bounds; and what counts as rounding, of the energies and of
 that of a strain of one."""
 TOLD = "stored energy less work over the last step, over what the forces' change makes uncertain in the work"
@@ -37,7 +38,7 @@ def last_step(problem: Problem, steps: Sequence[StepRecord]) -> Check | None:
     natural = problem.scales.stress * problem.scene.shell.thickest * problem.scales.length**lengths
     floor = max(ROUNDING * max(abs(_stored(after)), abs(stored), abs(mean)), NOTHING * natural)
     off = abs(stored - mean) / max(spread, 2 * floor)
-    return Check("energies", off, "", f"<= {HALF:g}", off <= HALF, TOLD)
+    return Check("energies", off, "", f"<= {PART:g}", off <= PART, TOLD)
 
 
 def _all_told(scene: Scene) -> bool:

@@ -43,7 +43,9 @@ def test_too_large(table: dict[str, Any], field: str) -> None:
     assert [problem.path for problem in caught.value.problems] == [f"discretisation.{field}"]
 
 
-@pytest.mark.parametrize(("reduction", "size"), [("axisymmetric", 0.4), ("axisymmetric", 0.1), ("3d", 0.4), ("3d", 0.2)])
+@pytest.mark.parametrize(
+    ("reduction", "size"), [("axisymmetric", 0.4), ("axisymmetric", 0.1), ("3d", 0.4), ("3d", 0.2)]
+)
 def test_never_more_than_there_are(reduction: str, size: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """With memory for as many as the mesh has there is no refusal."""
     model = {"interface": "closed", "reduction": reduction}
