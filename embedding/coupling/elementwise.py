@@ -42,7 +42,7 @@ class ElementwiseForm:
         self, lagrangian: Lagrangian, bending: SurfaceBending, membrane: Membrane, field: Extent
     ) -> None:
         unknowns, physics = lagrangian.unknowns, lagrangian.physics
-        self._count, self._update, self._range = unknowns.space.ndof, membrane.update, unknowns.range("u")
+        self._count, self._membrane, self._range = unknowns.space.ndof, membrane, unknowns.range("u")
         self.shell = ShellElements(
             lagrangian.domain,
             physics.law,
@@ -84,10 +84,11 @@ class ElementwiseForm:
         """
         self._rest.AssembleLinearization(vector)
         update = np.zeros(self._count)
-        update[self._range] = self._update.vec.FV().NumPy()
+        update[self._range] = self._membrane.update.vec.FV().NumPy()
         try:
             with np.errstate(all="ignore"):
-                self._store.fill(self._rest, self.shell.condensed(np.array(vector.FV().NumPy()), update))
+                matrices = self.shell.condensed(np.array(vector.FV().NumPy()), update, self._membrane.led)
+                self._store.fill(self._rest, matrices)
         except np.linalg.LinAlgError as error:
             raise LinearSolverError(f"the moments of an element could not be eliminated ({error})") from error
 

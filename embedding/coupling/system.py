@@ -71,6 +71,7 @@ class System:
         self._held: tuple[str, ...] = ()
         self._solver = self._linear_solver(())
         self._measured = self._linearised = self._displacement
+        self._guessed = self._continued = self.lagging = False
         self.residual()  # NGSolve differentiates an interpolation wrongly until it has been evaluated once
 
     def _forms(self, linear: Linear) -> tuple[Any, PotentialSolve | None]:
@@ -229,16 +230,30 @@ class System:
         """Assemble the tangent at the present state and load, for :meth:`solve`."""
         vector, membrane = self.unknowns.state.vec, self.lagrangian.membrane
         present = self._displacement
-        with membrane.extrapolating(present - self._linearised) if membrane is not None else nullcontext():
+        led: Any = nullcontext()
+        if membrane is not None:
+            led = membrane.extrapolating(
+                present - self._linearised, guessed=self._guessed, continued=self._continued
+            )
+        with led:
             self.form.AssembleLinearization(vector)
-        self._linearised = present
+        self.lagging = self._guessed and membrane is not None
+        self._linearised, self._guessed, self._continued = present, False, True
         self._solver.factor(self.form)
         if self.following is not None:
             self.following.linearise()
 
+    def guess(self) -> None:
+        """The present state is a guess: let the stress of the next tangent be that of the state it was made from."""
+        self._guessed, self._continued = True, False
+
+    def begin(self) -> None:
+        """What is solved next begins at the present state, with its own stress."""
+        self._continued = False
+
     def forget(self) -> None:
-        """Let the next tangent be that of its state alone: what led there was no update of Newton's method."""
-        self._linearised = self._displacement
+        """Let the next tangent be that of its state alone."""
+        self._linearised, self._guessed, self._continued = self._displacement, False, False
 
     def solve(self, right_side: Any, enough: float = 0.0) -> Any:
         """Solve with the tangent of the last :meth:`linearise`, all of it. What iterates may leave the part ``enough``.
@@ -345,6 +360,7 @@ class System:
         self._put(saved)
         if self.unknowns.bending is not None:
             self._measured = self._linearised = self._displacement
+        self._guessed = self._continued = False
 
     def _put(self, saved: Memory) -> None:
         self.unknowns.state.vec.FV().NumPy()[:] = saved["unknowns"]
@@ -376,3 +392,4 @@ class System:
             self._measured = memory["measured"]
         if memory["linearised"] is not None:
             self._linearised = memory["linearised"]
+        self._guessed = self._continued = False

@@ -37,7 +37,7 @@ class Kinematics:
 
     def __init__(self, reduction: Reduction, normal: Any, u: Any, axial: Any = 1.0, hoop: Any = None) -> None:
         self.dimension = reduction.dimension
-        self.u = u
+        self.u, self._reduction = u, reduction
         self.reference_normal = normal
         self.projector = Id(self.dimension) - OuterProduct(normal, normal)
         self.gradient = surface_gradient(u)
@@ -85,6 +85,24 @@ class Kinematics:
         """E = (C_s - P) / 2, the surface Green strain that the mesh shows; small strains keep their digits."""
         product = self.gradient.trans * self.projector
         return 0.5 * (product + product.trans + self.gradient.trans * self.gradient)
+
+    @cached_property
+    def hoop_strain(self) -> Any:
+        """(hoop^2 - 1) / 2, the strain that the mesh does not show; 0 in 3D. Small ones keep their digits."""
+        if self._reduction.name == "axisymmetric":
+            change = self._reduction.hoop_change(self.u)
+            return change + 0.5 * change * change
+        return 0.5 * (self.hoop - 1) * (self.hoop + 1)
+
+    @cached_property
+    def excess(self) -> Any:
+        """I_1 - 3 of the incompressible body."""
+        return self.metric_trace + 1 / self.surface_stretch_squared - 3
+
+    @cached_property
+    def second_excess(self) -> Any:
+        """I_2 - 3 of the incompressible body."""
+        return self.surface_stretch_squared + self.metric_trace / self.surface_stretch_squared - 3
 
     @cached_property
     def spatial_gradient(self) -> Any:

@@ -62,6 +62,11 @@ class Equilibrium(Protocol):
     def linearise(self) -> Linearised:
         """Factor the tangent of the present state. Raises LinearSolverError."""
 
+    @property
+    def lagging(self) -> bool:
+        """Had the tangent of the last :meth:`linearise` the stress of an earlier state? Then it says nothing of this
+        one."""
+
     def solve(self, right_side: Array) -> Array:
         """K^-1 times ``right_side`` with the tangent of the last :meth:`linearise`. Raises LinearSolverError."""
 
@@ -205,7 +210,7 @@ class Corrector:
                 return Correction((*sizes, size), response, Result.INVERTED_AMBIENT)
             sizes.append(size)
             watch(number, size, decrement)
-            if self._converged(sizes, decrement, thorough):
+            if not equilibrium.lagging and self._converged(sizes, decrement, thorough):
                 return Correction(tuple(sizes), response, None)
             if _stalled(sizes):
                 break

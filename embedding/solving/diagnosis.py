@@ -10,12 +10,18 @@ from ngsolve import ET, IfPos, IntegrationRule
 
 from embedding.coupling.linear import LinearSolverError
 from embedding.solving.ahead import look_ahead
+from embedding.solving.estimate.bent import SHARP, Bent
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
 from embedding.solving.result import Result
 from embedding.solving.room import reach
 from embedding.solving.state import State
 
+HIDDEN = 1e4
+"""Stiffness of bending over that of stretching, in roundings, at which Newton's method may fail for want of digits."""
+FOLLOWED = frozenset({Result.MAX_ARC, Result.MAX_STEPS})
+LOST = FOLLOWED | {Result.STEP_BELOW_MINIMUM, Result.LINEAR_SOLVER_FAILED}
+"""Results that may have another cause than they say."""
 PROBE = 1e-4
 STEEP = 5.0
 COMPRESSION = -1e-3
@@ -133,6 +139,17 @@ def crowded(problem: Problem, reason: Result) -> tuple[Result, str]:
         return reason, ""
     ends = f"the meshed space ends at the radius {radius * problem.scales.length:.4g} m"
     return Result.INVERTED_AMBIENT, f"the shell reaches to {far * problem.scales.length:.4g} m, and {ends}"
+
+
+def out_of_theory(problem: Problem, reason: Result) -> Result:
+    """The ``reason`` why a path ended, or what lies behind it at the last good state: a shell too thin for the digits
+    of a number, or one that bends too sharply for a theory of shells."""
+    if reason not in LOST or not problem.plan.bending:
+        return reason
+    ratio = problem.scene.shell.thickest / problem.scales.length
+    if reason not in FOLLOWED and ratio**2 < HIDDEN * float(np.finfo(float).eps):
+        return Result.TOO_THIN
+    return Result.SHARPLY_BENT if Bent(problem).sharpest > SHARP else reason
 
 
 def compressed(problem: Problem, scalars: dict[str, float]) -> bool:

@@ -17,6 +17,7 @@ from embedding.scene.messages import nearest
 from embedding.solving.arc import ArcStage
 from embedding.solving.assumptions import check_assumptions
 from embedding.solving.continuation import Condition, at_parameter
+from embedding.solving.diagnosis import out_of_theory
 from embedding.solving.estimate import default_quantity, estimate_errors
 from embedding.solving.events import Listener
 from embedding.solving.health import check_health
@@ -64,7 +65,7 @@ class Run(Session):
         result, errors, health = Result.CONVERGED, dict[str, ErrorEstimate](), tuple[Check, ...]()
         try:
             for number in range(self.stage, len(self.scene.path)):
-                result = self._stage(number)
+                result = out_of_theory(self.problem, self._stage(number))
                 if not result.ok:
                     break
             with part("estimate"):

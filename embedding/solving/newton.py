@@ -101,6 +101,7 @@ class Newton:
         iterations: list[Iteration] = []
         plain: list[float] = []
         enough = ENOUGH
+        self.system.begin()
         if not self._follow():
             return Outcome((), Result.INVERTED_AMBIENT)
         for number in range(1, self.max_iterations + 1):

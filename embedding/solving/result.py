@@ -47,6 +47,15 @@ class Result(Enum):
         "field and shell, solved in turn, do not settle: each changes what the other does too much. "
         'Solve them together (model.coupling = "joint"), or accelerate the turns (solver.acceleration = "iqn-ils")'
     )
+    TOO_THIN = (
+        "the shell is so thin against its size that rounding hides its bending stiffness, which is (T/L)^2 of that "
+        "against stretching. Make it a thousand times thicker and scale the loads that bend it by the cube of that: it "
+        'takes the same shape; or leave bending out (model.theory = "membrane")'
+    )
+    SHARPLY_BENT = (
+        "the shell bends to a radius near its own thickness, where the theory of thin shells ends, and follows no more "
+        "what a wall of this rubber does. Take the load back, or model the wall as a three-dimensional solid"
+    )
     STEP_BELOW_MINIMUM = (
         "Newton's method did not converge with the smallest step allowed. "
         "Make the mesh on the shell finer, add steps, or start from an inflated state"

@@ -65,7 +65,7 @@ class ShellPath:
         if not moved:
             self._put(*before)
         elif curved:
-            self._system.forget()
+            self._system.guess()
         return moved
 
     def _put(self, values: Array, parameter: float) -> None:
@@ -90,6 +90,11 @@ class ShellPath:
         response = prescribed - self.solve(load)
         self.clock.add("joint", start)
         return Linearised(residual, load, update, response)
+
+    @property
+    def lagging(self) -> bool:
+        """Had the last tangent the stress of the state before a guess?"""
+        return self._system.lagging
 
     def _difference(self) -> tuple[Array, Array]:
         """Derivatives of the residual and of the prescribed unknowns in the parameter, by central differences.

@@ -31,6 +31,8 @@ MISSED = 0.1
 """Largest error of a prediction, relative to the step, that lets the step grow."""
 FASTEST, SLOWEST = 2.5, 0.4
 """The most and the least a step may be of the one before."""
+STRAYED = 1.0
+"""A point farther from its prediction, in steps, is on another path: that of a sheet turned inside out, for one."""
 TURN = 0.5
 """Smallest cosine between a step and the tangents at its ends; below it another branch may have been met."""
 REACH = 1.15
@@ -189,6 +191,9 @@ class Walk:
         point = self._point(correction)
         if isinstance(point, Result):
             return point
+        error = self.metric.length(Direction(point.values - guess.values, point.parameter - guess.parameter))
+        if error > STRAYED * self.length:
+            return Result.STEP_BELOW_MINIMUM
         passed = Curve(self.here, point)
         crossing = self._crossing(passed, (self.here.place, point.place))
         if crossing is not None:
@@ -198,9 +203,8 @@ class Walk:
             self._accept(point)
             return None
         self._blind = False
-        error = Direction(point.values - guess.values, point.parameter - guess.parameter)
         hard = sum(size > NEAR * self.length for size in correction.sizes) + 1
-        growth = _growth(hard, self.metric.length(error) / self.length, curve.order)
+        growth = _growth(hard, error / self.length, curve.order)
         self._accept(point)
         self._lengthen(growth)
         return None

@@ -40,6 +40,10 @@ class Stretched:
         self.dimension, self.hoop = (2, second) if hoop else (3, 1.0)
         self.surface_stretch_squared = (first * second) ** 2
         self.metric_trace = first**2 + second**2
+        across = 1 / self.surface_stretch_squared
+        self.excess = self.metric_trace + across - 3
+        self.second_excess = self.surface_stretch_squared + self.metric_trace * across - 3
+        self.hoop_strain = 0.5 * (self.hoop**2 - 1)
         shown = (first, 1.0 if hoop else second)
         self.strain = CF((0.5 * (shown[0] ** 2 - 1), 0, 0, 0.5 * (shown[1] ** 2 - 1)), dims=(2, 2))
 

@@ -58,6 +58,8 @@ class Truss:
         residual += self.t * load
         return Linearised(residual, load, -self.solve(residual), -self.solve(load))
 
+    lagging = False
+
     def solve(self, right_side: Array) -> Array:
         try:
             return np.linalg.solve(self.matrix, right_side)

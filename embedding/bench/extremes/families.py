@@ -6,7 +6,10 @@ from importlib import import_module
 
 from embedding.bench.extremes.cell import Cell
 
-FAMILIES = ("thickness", "ratios", "voltages", "remanence", "radii", "gaps", "meshes")
+FAMILIES = (
+    "thickness", "stretch", "rotations", "limit_points", "units", "steps",
+    "ratios", "voltages", "remanence", "radii", "gaps", "meshes",
+)  # fmt: skip
 """In the order of the map."""
 
 

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from embedding.scene import Scene
     from embedding.solving import Solution
 
+UNKNOWN = 1.0
+"""An error estimate of all of a number says that nothing of it is known."""
 HONEST = 2.0
 """An answer that is off by no more than this many times its own error estimate was told to be."""
 
@@ -74,7 +76,7 @@ def _verdict(cell: Cell, solution: Solution, errors: Numbers) -> tuple[str, str]
     off = [name for name, error in errors.items() if error > cell.tolerance]
     if not off:
         return RIGHT, ""
-    if all(errors[name] <= HONEST * _stated(solution, name) for name in off):
+    if all(errors[name] <= HONEST * _stated(solution, name) or _stated(solution, name) >= UNKNOWN for name in off):
         return TOLD, "error estimate"
     warned = ", ".join(_warnings(solution))
     return (TOLD, warned) if warned else (WRONG, "")

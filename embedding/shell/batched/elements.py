@@ -61,16 +61,16 @@ class ShellElements:
             for numbers, values in part.residual(state, memory):
                 np.add.at(out, numbers, values)
 
-    def condensed(self, state: Array, update: Array) -> Iterator[Array]:
-        """The condensed matrices (e, nk, nk) of each block at ``state``, the membrane stress extrapolated over
-        ``update``, of which the displacement counts.
+    def condensed(self, state: Array, update: Array, led: tuple[bool, bool]) -> Iterator[Array]:
+        """The condensed matrices (e, nk, nk) of each block at ``state``, the membrane strain extrapolated over
+        ``update``, of which the displacement counts; ``led`` as in :attr:`embedding.shell.membrane.Membrane.led`.
 
         Raises:
             numpy.linalg.LinAlgError: a matrix of moments is singular.
         """
         memory = self.bending.memory
         for part in self.parts:
-            yield part.condensed(state, update, memory)
+            yield part.condensed(state, update, memory, led)
 
     @property
     def kept(self) -> list[Integers]:

@@ -53,14 +53,15 @@ class Rubber:
     def slopes(self, t: Array, e: Array) -> Slopes:
         """Derivatives of Psi at the invariants (p, e)."""
         second = self.law.c2 if isinstance(self.law, MooneyRivlinLaw) else 0.0
-        trace, b = 2 + 2 * t, 1 + 2 * t + 4 * e
-        inverse = 1 / b
-        phi, bend, _ = first_invariant(self.law, trace + inverse - 3)
-        of_trace, of_b = phi + second * inverse, second - (phi + second * trace) * inverse**2
+        trace, grown = 2 + 2 * t, 2 * t + 4 * e  # of the metric, and b - 1: small ones keep their digits
+        inverse = 1 / (1 + grown)
+        phi, bend, _ = first_invariant(self.law, 4 * (t * t + 2 * t * e - e) * inverse)
         mixed = -(bend + second) * inverse**2
         curved = bend * inverse**4 + 2 * (phi + second * trace) * inverse**3
+        along = phi * grown * (2 + grown) + second * (grown * (3 + grown) - 2 * t)
+        across = second - (phi + second * trace) * inverse**2
         return Slopes(
-            2 * (of_trace + of_b), 4 * of_b, 4 * (bend + 2 * mixed + curved), 8 * (mixed + curved), 16 * curved
+            2 * along * inverse**2, 4 * across, 4 * (bend + 2 * mixed + curved), 8 * (mixed + curved), 16 * curved
         )
 
     def bending_modulus(self, x: Array) -> tuple[Any, Any, Any]:

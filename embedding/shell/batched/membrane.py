@@ -5,8 +5,8 @@ values at the points or the coefficients of its interpolation, is so with consta
 
     E_r = sum_ij T_rij (X_i + u_i / 2) . u_j,    dE_r / du_j = sum_i T_rij x_i,    d2E_r / du_i du_j = T_rij I.
 
-The density depends on the invariants t = tr E and e = det E of the mixed components, see laws.py. In the tangent the
-stress is extrapolated over the last update d, by -1/2 D : (Grad d^T Grad d), see shell/membrane.py.
+The density depends on the invariants t = tr E and e = det E of the mixed components, see laws.py. The tangent has
+strain and stress extrapolated over the last update, see shell/membrane.py.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from functools import cache
 
 import numpy as np
 
-from embedding.shell.batched.algebra import DETERMINANT, both, determinant, determinant_slope, dot, metric, outer
+from embedding.shell.batched.algebra import DETERMINANT, both, determinant, determinant_slope, dot, outer
 from embedding.shell.batched.laws import Hooke, Rubber
-from embedding.shell.batched.places import Block, Surface, derivatives
+from embedding.shell.batched.places import Block, Surface
 from embedding.shell.batched.polynomials import (
     GRADIENT,
     Array,
@@ -27,6 +27,7 @@ from embedding.shell.batched.polynomials import (
     triangle_rule,
 )
 from embedding.shell.batched.reference import interpolation
+from embedding.shell.membrane import LEAST
 
 
 class Membrane:
@@ -46,6 +47,7 @@ class Membrane:
             seen, self._values = _plain(block.order, degree), np.eye(len(points))
         self._strain = np.einsum("rvij,ia,jb->vrab", seen, block.shapes, block.shapes)
         self._matrix = self._strain.reshape(-1, block.shapes.shape[1])
+        self._before: tuple[Array, Array] | None = None
         self._pairs = (self._values[:, :, None] * self._values[:, None, :]).reshape(len(points), -1)
 
     def residual(self, u: Array) -> Array:
@@ -53,13 +55,19 @@ class Membrane:
         E = self._at_points(self._seen(self._places + 0.5 * u, u))
         return self._pulled(self._stress(E), self._slope(self._places + u))
 
-    def matrix(self, u: Array, update: Array | None) -> Array:
-        """Second derivative (e, 3n, 3n) at ``u``, the stress extrapolated over the last ``update``."""
-        x = self._places + u
-        E, slope = self._at_points(self._seen(self._places + 0.5 * u, u)), self._slope(x)
+    def matrix(self, u: Array, update: Array, guessed: bool, continued: bool) -> Array:
+        """Second derivative (e, 3n, 3n) at ``u``, the strain extrapolated over the last ``update``, or that before it
+        if the state is ``guessed``; the stress is linearised if the last matrix has led there (``continued``)."""
+        E, slope = self._at_points(self._seen(self._places + 0.5 * u, u)), self._slope(self._places + u)
+        present = E
+        if np.any(update):
+            half = self._places + u - 0.5 * update if guessed else 0.5 * update
+            E = self._without(E, self._at_points(self._seen(half, update)))
         stress = self._stress(E)
-        if update is not None:
-            stress = stress + self._extrapolated(self._at_points(self._seen(update, update)), x)
+        if continued and self._before is not None:
+            was, led = self._before
+            stress = self._stress(was) + np.einsum("rs...,s...->r...", self._stiffness(led), E - was)
+        self._before = present, E
         seen, count, n = len(slope), u.shape[2], u.shape[0]
         nodes = self._values.shape[1]
         stiff = np.tensordot(self._pairs, self._stiffness(E), axes=(0, 2)).reshape(nodes, nodes, 3, 3, count)
@@ -109,17 +117,15 @@ class Membrane:
             out = out + slopes.te * both(trace, area) + slopes.ee * outer(area, area)
         return np.asarray(self._weights * out)
 
-    def _extrapolated(self, grown: Array, x: Array) -> Array:
-        """-1/2 D : ``grown`` (3, p, e), with the stiffness of the state ``x``."""
-        if isinstance(self._law, Hooke):
-            youngs, poisson = self._law.youngs, self._law.poisson
-        else:
-            C = metric(*derivatives(self._slopes, x))
-            first = dot(self._inverse, C) + self._square / determinant(C) - 3
-            youngs, poisson = 3 * self._law.bending_modulus(first)[0], np.array(0.5)
-        trace, across = dot(self._inverse, grown), determinant_slope(grown) / self._square
-        stress = trace * self._inverse - (1 - poisson) * across
-        return -0.5 * self._weights * youngs / (1 - poisson**2) * stress
+    def _without(self, E: Array, grown: Array) -> Array:
+        """The strain less what has ``grown``, where that leaves enough of the squared stretches."""
+        (trace, area), (was, before) = (self._stretched(strain) for strain in (E - grown, E))
+        return np.where((trace > LEAST * was) & (area > LEAST * before), E - grown, E)
+
+    def _stretched(self, E: Array) -> tuple[Array, Array]:
+        """I_C and J_s^2."""
+        t, e = self._invariants(E)
+        return 2 + 2 * t, 1 + 2 * t + 4 * e
 
 
 @cache

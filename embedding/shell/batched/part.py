@@ -65,7 +65,7 @@ class Part:
         yield self.moment, (curvature + turn).T + rotation
         yield self._rotation, (m.T[:, None] @ self._turns)[:, 0]
 
-    def condensed(self, state: Array, update: Array, memory: Array) -> Array:
+    def condensed(self, state: Array, update: Array, memory: Array, led: tuple[bool, bool]) -> Array:
         """The condensed matrices (e, nk, nk)."""
         u, m = self.unknowns(state)
         x = self.places + u
@@ -75,7 +75,7 @@ class Part:
         half = np.ascontiguousarray(matrices.uu.transpose(4, 2, 0, 3, 1)).reshape(count, 3 * n, 3 * n)
         kept = np.zeros((count, *2 * (self.kept.shape[1],)))
         kept[:, : 3 * n, : 3 * n] = half + half.swapaxes(1, 2)
-        kept[:, : 3 * n, : 3 * n] += self.membrane.matrix(u, moved if np.any(moved) else None)
+        kept[:, : 3 * n, : 3 * n] += self.membrane.matrix(u, moved, *led)
         pull = matrices.mu.transpose(3, 0, 2, 1).reshape(count, nm, 3 * n)
         moments = np.ascontiguousarray(np.asarray(matrices.mm).transpose(2, 0, 1))
         out, self.condensation = Condensation.of(kept, np.concatenate([pull, self._turns], axis=2), moments)

@@ -8,6 +8,8 @@ the deformed one and c = +-1 the hand of tangent and normal, b_ss = c |F t| (the
 
 The unknown is q = m_ss R / hoop (plane strain: m_ss / hoop), continuous where the moment balance wants it; integrated
 by parts, int q c theta' = - int c q' theta, neither second derivatives nor jumps appear, and kinks keep their angle.
+Held in numbers is q / T^3, so that all of the energy's second derivatives are of the size T^3: NGSolve finds mixed ones
+as differences, and those with displacements would be lost beside the compliance, of the size T^-3, of q itself.
 Where a rotation is free q is given (the moment there, or 0); where it is held q is free, and the angle is held by the
 equation itself. Source: theory page, "Bending".
 """
@@ -49,11 +51,12 @@ class CurveBending:
         if self._axisymmetric:
             fixed[: domain.mesh.nv][np.abs(reference_positions(domain.mesh)[:, 0]) < ON_AXIS] = True
         self._trace.fix(0, fixed)
+        self._unit = domain.shell_integral(stiffness.thickness**3) / domain.shell_integral(1.0)
         self._given = GridFunction(self._trace.scalar)
         for edge, given in moments:
             for vertex in facets_named(domain.facets, (edge,)):
                 radius = reference_positions(domain.mesh)[int(vertex), 0] if self._axisymmetric else 1.0
-                self._given.vec[int(vertex)] = given * radius
+                self._given.vec[int(vertex)] = given * radius / self._unit
         self._turned = GridFunction(SurfaceL2(domain.mesh, order=domain.sizes.order, definedon=domain.shell))
         self._tangent = specialcf.tangential(2)
         self._slope = domain.sign * Grad(specialcf.normal(2))
@@ -69,7 +72,7 @@ class CurveBending:
         q = values["moment"]
         measure = self.domain.reduction.measure
         per_radius = measure / x if self._axisymmetric else measure
-        along = InnerProduct(surface_gradient(q) + factor * surface_gradient(self._given), self._tangent)
+        along = self._unit * InnerProduct(surface_gradient(q) + factor * surface_gradient(self._given), self._tangent)
         pairing = -1 * per_radius * self._hand * along * self._angle(kinematics)
         moment = self._moment((q.Trace() if hasattr(q, "Trace") else q) + factor * self._given, kinematics)
         t, hoop = self._tangent, kinematics.hoop
@@ -84,8 +87,9 @@ class CurveBending:
         return []
 
     def _moment(self, q: Any, kinematics: Kinematics) -> Any:
-        """m_ss from the unknown q."""
-        return q * kinematics.hoop / x if self._axisymmetric else q * kinematics.hoop
+        """m_ss from the unknown, q over its unit."""
+        moment = self._unit * q * kinematics.hoop
+        return moment / x if self._axisymmetric else moment
 
     def _hoop_curvature(self, kinematics: Kinematics) -> Any:
         if not self._axisymmetric:
@@ -105,13 +109,25 @@ class CurveBending:
         moment = self._moment(values["moment"] + factor * self._given, kinematics)
         return self.stiffness.stored(kinematics, moment, self._hoop_curvature(kinematics))
 
+    def shear_force_squared(self, values: dict[str, Any], kinematics: Kinematics, factor: Any) -> Any:
+        """Square of the shear force per reference length that the moments are in balance with: (m_ss R)' - m_hh R',
+        over R, of a shell that is hardly stretched."""
+        q = self._unit * (values["moment"] + factor * self._given)
+        slope = surface_gradient(values["moment"]) + factor * surface_gradient(self._given)
+        along = self._unit * InnerProduct(slope, self._tangent)
+        if self._axisymmetric:
+            moment = q * kinematics.hoop / x
+            around = self.stiffness.hoop_moment(kinematics, moment, self._hoop_curvature(kinematics))
+            along = (along - around * self._tangent[0]) / x
+        return along * along
+
     def principal_moments(self, values: dict[str, Any], kinematics: Kinematics, factor: Any) -> tuple[Any, Any]:
         """Larger and smaller of meridional and hoop bending moment per deformed length, lambda l_i^2 m_ii / J_s."""
-        q = values["moment"] + factor * self._given
+        q = self._unit * (values["moment"] + factor * self._given)
         moment, hoop_curvature = q * kinematics.hoop, CF(0.0)
         if self._axisymmetric:
             slope = surface_gradient(values["moment"]) + factor * surface_gradient(self._given)
-            on_axis = InnerProduct(slope, self._tangent) / self._tangent[0]  # q / R where R = 0
+            on_axis = self._unit * InnerProduct(slope, self._tangent) / self._tangent[0]  # q / R where R = 0
             moment = IfPos(x - ON_AXIS, q / x, on_axis) * kinematics.hoop
             N = kinematics.reference_normal
             spread = IfPos(x - ON_AXIS, (N[0] * kinematics.hoop - kinematics.director[0]) / x, CF(0.0))

@@ -55,12 +55,13 @@ class Stiffness:
         if not self.law.incompressible:
             E, nu = self.law.youngs, self.law.poisson
             D = E * self.thickness**3 / (12 * (1 - nu**2))
-            return (moment - D * nu * hoop) ** 2 / (2 * D) - D / 2 * hoop**2
+            return moment**2 / (2 * D) - nu * moment * hoop - D / 2 * (1 - nu**2) * hoop**2
         A = self.law.bending_modulus(kinematics) * self.thickness**3 / (12 * kinematics.surface_stretch_squared)
         F = kinematics.deformation_gradient
-        along = InnerProduct(F, F)
+        along = moment * InnerProduct(F, F)
         relative = hoop / kinematics.hoop**2
-        return (moment * along - 2 * A * relative) ** 2 / (8 * A) - 2 * A * relative**2
+        # Written out: in the square of a sum NGSolve loses what is 1e-16 of the other term, and the mixed derivative.
+        return along**2 / (8 * A) - along * relative / 2 - 3 / 2 * A * relative**2
 
     def hoop_moment(self, kinematics: Kinematics, moment: Any, hoop: Any) -> Any:
         """m_hh from the meridional ``moment`` and the ``hoop`` curvature measure."""

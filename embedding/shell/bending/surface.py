@@ -25,6 +25,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from ngsolve import (
+    BND,
     CF,
     ET,
     Cof,
@@ -46,7 +47,7 @@ from ngsolve import (
 
 from embedding.geometry.domain import Domain
 from embedding.geometry.ends import directions, facets_named, facets_on_plane, unknowns_on
-from embedding.geometry.spaces import ON_PLANE, Mask, as_mask
+from embedding.geometry.spaces import ON_PLANE, Mask, TraceSpace, as_mask
 from embedding.shell.bending.stiffness import EdgeMoments, Stiffness
 from embedding.shell.kinematics import Kinematics, surface_gradient
 
@@ -182,6 +183,23 @@ class SurfaceBending:
         The moments given on edges, ``factor`` times them, are in the unknown.
         """
         return self.stiffness.dual(kinematics, values["moment"])
+
+    def shear_force_squared(self, values: dict[str, Any], kinematics: Kinematics, factor: Any) -> Any:
+        """Square of the shear force per reference length that the moments are in balance with, their divergence, of a
+        shell that is hardly stretched; moments are made continuous before."""
+        space = TraceSpace(self.domain.mesh, self.domain.sizes.order, vector=False, reach="shell").scalar
+        normal, moment = self.domain.normal, values["moment"]
+        divergence = []
+        for i in range(3):
+            rows = []
+            for j in range(3):
+                entry = GridFunction(space)
+                entry.Set(moment[i, j], BND, definedon=self.domain.shell)
+                rows.append(surface_gradient(entry)[j])
+            divergence.append(rows[0] + rows[1] + rows[2])
+        force = CF(tuple(divergence))
+        across = InnerProduct(force, normal)
+        return InnerProduct(force, force) - across * across
 
     def principal_moments(self, values: dict[str, Any], kinematics: Kinematics, factor: Any) -> tuple[Any, Any]:
         """Larger and smaller principal bending moment per deformed length, of lambda F m F^T / J_s."""

@@ -25,19 +25,14 @@ class MooneyRivlinLaw(IncompressibleLaw):
     c2: float = 0.0
 
     def energy(self, kinematics: Kinematics) -> Any:
-        inverse = 1 / kinematics.surface_stretch_squared
-        energy = self.c1 * (kinematics.metric_trace + inverse - 3)
-        if self.c2:
-            second = kinematics.surface_stretch_squared + kinematics.metric_trace * inverse
-            energy = energy + self.c2 * (second - 3)
-        return energy
+        energy = self.c1 * kinematics.excess
+        return energy + self.c2 * kinematics.second_excess if self.c2 else energy
 
     def bending_modulus(self, kinematics: Kinematics) -> Any:
         """2 (c1 + c2 I_1 / 3)."""
         if not self.c2:
             return 2 * self.c1
-        first = kinematics.metric_trace + 1 / kinematics.surface_stretch_squared
-        return 2 * self.c1 + (2 * self.c2 / 3) * first
+        return 2 * self.c1 + (2 * self.c2 / 3) * (kinematics.excess + 3)
 
     def principal_stresses(self, major: Any, minor: Any) -> tuple[Any, Any]:
         across = (major * minor) ** -2
@@ -59,20 +54,16 @@ class FirstInvariantLaw(IncompressibleLaw):
         """d Psi / d I_1 at x = I_1 - 3."""
 
     def energy(self, kinematics: Kinematics) -> Any:
-        return self.of_excess(_excess(kinematics))
+        return self.of_excess(kinematics.excess)
 
     def bending_modulus(self, kinematics: Kinematics) -> Any:
         """2 d Psi / d I_1, the same for every pair."""
-        return 2 * self.slope(_excess(kinematics))
+        return 2 * self.slope(kinematics.excess)
 
     def principal_stresses(self, major: Any, minor: Any) -> tuple[Any, Any]:
         across = (major * minor) ** -2
         modulus = 2 * self.slope(major**2 + minor**2 + across - 3)
         return modulus * (major**2 - across), modulus * (minor**2 - across)
-
-
-def _excess(kinematics: Kinematics) -> Any:
-    return kinematics.metric_trace + 1 / kinematics.surface_stretch_squared - 3
 
 
 @dataclass(frozen=True)

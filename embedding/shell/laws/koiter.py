@@ -29,7 +29,7 @@ class KoiterLaw:
         """Psi, energy per reference volume."""
         trace, square = _trace(kinematics), InnerProduct(kinematics.strain, kinematics.strain)
         if kinematics.dimension == 2:
-            square = square + _hoop_strain(kinematics) ** 2
+            square = square + kinematics.hoop_strain ** 2
         return (self.youngs / (2 * (1 + self.poisson))) * (square + self._coupling * trace * trace)
 
     def thickness_stretch(self, kinematics: Kinematics) -> Any:
@@ -52,8 +52,4 @@ class KoiterLaw:
 
 def _trace(kinematics: Kinematics) -> Any:
     trace = Trace(kinematics.strain)
-    return trace if kinematics.dimension == 3 else trace + _hoop_strain(kinematics)
-
-
-def _hoop_strain(kinematics: Kinematics) -> Any:
-    return 0.5 * (kinematics.hoop - 1) * (kinematics.hoop + 1)
+    return trace if kinematics.dimension == 3 else trace + kinematics.hoop_strain

@@ -1,7 +1,8 @@
 """What every law offers. All is dimensionless, and the thickness stretch lambda is eliminated.
 
-A law asks kinematics for ``metric_trace`` (I_C), ``surface_stretch_squared`` (J_s^2) and, where the mesh has two
-dimensions, ``hoop``, the stretch it does not show; the law of small strains asks for ``strain`` instead of the first.
+A law asks kinematics for ``metric_trace`` (I_C), ``surface_stretch_squared`` (J_s^2), what both make of the
+invariants (``excess``, ``second_excess``) and, where the mesh has two dimensions, ``hoop``, the stretch it does not
+show; the law of small strains asks for ``strain`` and ``hoop_strain`` instead.
 """
 
 from __future__ import annotations

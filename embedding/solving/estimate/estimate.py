@@ -7,7 +7,8 @@ shell           what one more order changes, from the residual of the shell's ow
 geometry        the same, from curving the elements by one order more (where it can be told apart, else in "shell")
 ambient         the rest of that change; at rims and sharp edges of conductors its limit over all orders
 thickness       what membrane theory misses of a thick wall, times the response to loads (:mod:`.theory`)
-shear           what bending without transverse shear leaves out, 0.6 (T/L)^2 of the deflection of a cantilever
+shear           what bending without transverse shear leaves out, from the shear forces (:mod:`.bent`)
+curling         what rubber bent to a radius not far above its thickness takes less than the theory says (:mod:`.bent`)
 opened faces    where a field acts on them, of second order in t/r (:mod:`.theory`)
 closed faces    the same at the mid-surface: 1.6 t/r of the field's load and of what the field itself is
 far field       what Robin's condition makes of the harmonics it is not exact for (ambient/harmonics)
@@ -27,8 +28,9 @@ from dataclasses import dataclass
 
 from embedding.geometry.outline import SHARP_ANGLE
 from embedding.geometry.remeshing import one_order_more
-from embedding.plan.coefficients import CLOSED_FACES, SHEAR
+from embedding.plan.coefficients import CLOSED_FACES
 from embedding.plan.far_field import reach_of
+from embedding.solving.estimate.bent import Bent
 from embedding.solving.estimate.enriched import Changes, Enriched
 from embedding.solving.estimate.theory import Wall, law_of, wall_of
 from embedding.solving.events import StepRecord
@@ -197,11 +199,9 @@ def _moves(name: str) -> bool:
 def _theory(
     problem: Problem, wall: Wall | None, scalars: Scalars, responses: dict[str, Scalars]
 ) -> dict[str, Scalars]:
-    if _bent(problem, scalars):
-        shear = SHEAR * (problem.scene.shell.thickest / problem.scales.length) ** 2
-        return {"shear": {name: shear * value for name, value in scalars.items() if _moves(name)}}
-    if wall is None:
-        return {}
+    found = _of_bending(problem, scalars, responses.get("all", {})) if problem.plan.bending else {}
+    if wall is None or _bent(problem, scalars):
+        return found
     elastic = wall.elastic(law_of(problem))
     missed = {name: -elastic * response for name, response in responses.get("all", {}).items() if name in scalars}
     if "pressure" in problem.system.unknowns and "pressure_difference" in scalars:
@@ -210,7 +210,15 @@ def _theory(
     if field is not None and "voltage_jump" in scalars:
         pull = responses.get("field", {})
         missed = {name: value + wall.electric * pull.get(name, 0.0) for name, value in missed.items()}
-    return {"thickness": missed}
+    return found | {"thickness": missed}
+
+
+def _of_bending(problem: Problem, scalars: Scalars, responses: Scalars) -> dict[str, Scalars]:
+    """What normals that stay normal leave out of the compliance, as an error of the loads."""
+    bent = Bent(problem)
+    moved = {name: responses.get(name, value) for name, value in scalars.items() if _moves(name)}
+    parts = {"shear": bent.shear, "curling": bent.curling}
+    return {source: {name: part * value for name, value in moved.items()} for source, part in parts.items() if part}
 
 
 # -- field
