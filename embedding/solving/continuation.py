@@ -73,6 +73,9 @@ class Equilibrium(Protocol):
     def gradient(self, direction: Array) -> Array:
         """M times ``direction``: x . M x is the mean square of the displacement, in sizes of the structure."""
 
+    def turned_over(self, values: Array) -> bool:
+        """Has all of the structure turned over since it had these ``values``? No path does that in one step."""
+
     def decrement(self, residual: Array, step: Array) -> float:
         """Energy norm of a Newton step."""
 

@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from ngsolve import BilinearForm, InnerProduct
+from ngsolve import ET, BilinearForm, GridFunction, InnerProduct, IntegrationRule
 
 from embedding.coupling.physics import FieldPhysics
 from embedding.solving.continuation import Array, Linearised
@@ -157,6 +157,29 @@ class ShellPath:
         out = np.zeros_like(direction)
         out[where] = self._numbers((self._mass * vector).Evaluate())
         return out
+
+    def turned_over(self, values: Array) -> bool:
+        """Has every piece of a membrane turned by more than a right angle since it had these ``values``? Beyond the state
+        of no size a squeezed sheet is found again as its own point reflection. Shells that bend may turn."""
+        if self.problem.plan.bending:
+            return False
+        domain, before = self.problem.domain, self._before
+        before.vec.FV().NumPy()[:] = values[self._system.unknowns.range("u")]
+        rule = IntegrationRule(ET.TRIG if domain.mesh.dim == 3 else ET.SEGM, domain.sizes.order)
+        points = domain.mesh.MapToAllElements(rule, domain.shell)
+        return bool(np.asarray(self._likeness(points)).max() < 0.0)
+
+    @cached_property
+    def _before(self) -> GridFunction:
+        return GridFunction(self._system.unknowns.trace.space)
+
+    @cached_property
+    def _likeness(self) -> Any:
+        """Product of the deformation gradients before and now."""
+        lagrangian, names = self._system.lagrangian, self._system.unknowns.names
+        now = {name: self._system.unknowns.field(name) for name in names}
+        pair = (lagrangian.kinematics({**now, "u": u}).deformation_gradient for u in (self._before, now["u"]))
+        return InnerProduct(*pair)
 
     def decrement(self, residual: Array, step: Array) -> float:
         """Energy norm of a Newton step, see :meth:`System.decrement`."""

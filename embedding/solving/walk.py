@@ -250,7 +250,7 @@ class Walk:
         if ahead < 0.0:
             tangent, ahead = tangent.scaled(-1.0), -ahead
         turned = 1.0 if here.tangent is None else self.metric.inner(here.tangent, chord)
-        if length == 0.0 or min(ahead, turned) < TURN * length:
+        if length == 0.0 or min(ahead, turned) < TURN * length or equilibrium.turned_over(here.values):
             return Result.STEP_BELOW_MINIMUM
         place = here.place + _arc(length, ahead / length, turned / length)
         return Point(values, parameter, place, tangent, equilibrium.unstable_modes(), equilibrium.save())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from embedding.bench.extremes import WRONG, Cell, cells_of, judge
+from embedding.bench.extremes.cell import nothing
 
 CELLS = [pytest.param(cell, id=cell.name, marks=[pytest.mark.slow] if cell.slow else []) for cell in cells_of()]
 
@@ -19,4 +20,4 @@ def test_cell(cell: Cell) -> None:
 def test_cells_have_names_of_their_own_and_sources() -> None:
     cells = cells_of()
     assert len({cell.name for cell in cells}) == len(cells)
-    assert not [cell.name for cell in cells if cell.reference() and not cell.source]
+    assert not [cell.name for cell in cells if cell.reference is not nothing and not cell.source]

@@ -80,10 +80,10 @@ def caps() -> list[Cell]:
     return [
         Cell("limit points", "cap, snap-through", "by arc length, through it",
              partial(_cap, height, [{"until": until}]), lambda: SNAP, "Marguerre's equations", tolerance=1e-3,
-             answers=_turns),
+             answers=_turns, slow=True),
         Cell("limit points", "cap, snap-through", "by pressure, past the limit",
              partial(_cap, height, [{"control": "load"}]), lambda: {"factor": SNAP["first"]}, "Marguerre's equations",
-             tolerance=2e-2, answers=_with_factor, reasons=frozenset({"LIMIT_POINT"}), expected=FAILED),
+             tolerance=2e-2, answers=_with_factor, reasons=frozenset({"LIMIT_POINT"}), expected=FAILED, slow=True),
         Cell("limit points", "cap, snap-through", "by arc length, to the load behind it",
              partial(_cap, height, [{}]), lambda: SNAP, "Marguerre's equations", tolerance=1e-3, answers=_turns),
     ]  # fmt: skip
@@ -131,6 +131,7 @@ def _column(
     return Cell(
         "limit points", row, f"{near:g} of Euler's load", partial(_loaded_column, near, **options), reference,
         "Euler's column", tolerance=tolerance, answers=answers, expected=expected,
+        slow=not 0.999 < near < 1.001,
     )  # fmt: skip
 
 

@@ -28,29 +28,34 @@ PATHS: dict[str, list[Table]] = {
         {"name": "go", "control": "load", "steps": 1},
     ],
 }
+QUICK = {
+    ("balloon", "all at once"), ("balloon", "tolerance 1e-15"), ("balloon", "once more"),
+    ("cantilever", "tolerance 1e-13"), ("cantilever", "once more"),
+}  # fmt: skip
+"""Cells of the default tests."""
 TOLERANCES = (1e-4, 1e-12, 1e-13, 1e-15)
 
 
 def cells() -> list[Cell]:
     """A row for each shell, a column for each way to solve it."""
-    found = []
+    found: list[Cell] = []
     for shell in SCENES:
         # The interior of an ambient goes the way it is led, and its mesh leaves 1e-4 of the answer open.
         way = 1e-6 if shell == "charged balloon" else 1e-9
         for name, path in PATHS.items():
-            found.append(_cell(shell, name, {"path": path}, way, slow=name.startswith("200")))
+            found.append(_cell(shell, name, {"path": path}, way))
         for tolerance in TOLERANCES:
             allowed = max(1e-9, 10 * tolerance)
             found.append(_cell(shell, f"tolerance {tolerance:g}", {"solver": {"tolerance": tolerance}}, allowed))
-        found.append(_cell(shell, "2 threads", {"solver": {"threads": 2}}, 1e-10, slow=True))
+        found.append(_cell(shell, "2 threads", {"solver": {"threads": 2}}, 1e-10))
         found.append(same_bytes(shell))
     return found
 
 
-def _cell(shell: str, value: str, changes: Table, tolerance: float, *, slow: bool = False) -> Cell:
+def _cell(shell: str, value: str, changes: Table, tolerance: float) -> Cell:
     return Cell(
         "steps", shell, value, partial(SCENES[shell], **changes), partial(_usual, shell),
-        "the same shell by its own steps", tolerance=tolerance, answers=_answers, slow=slow, seconds=300.0,
+        "the same shell by its own steps", tolerance=tolerance, answers=_answers, slow=(shell, value) not in QUICK, seconds=300.0,
         fields=("solver.tolerance",), expected=REFUSED if value.endswith(" 1e-15") else RIGHT,
     )  # fmt: skip
 
@@ -72,7 +77,7 @@ def same_bytes(shell: str) -> Cell:
     """Two runs of one scene on one thread: every number of every step and field the same, to the last bit."""
     return Cell(
         "steps", shell, "once more", SCENES[shell], lambda: {"same numbers": 1.0}, "the run itself", tolerance=0.0,
-        answers=_compared_bytes,
+        answers=_compared_bytes, slow=(shell, "once more") not in QUICK,
     )  # fmt: skip
 
 
