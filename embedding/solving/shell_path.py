@@ -159,8 +159,8 @@ class ShellPath:
         return out
 
     def turned_over(self, values: Array) -> bool:
-        """Has every piece of a membrane turned by more than a right angle since it had these ``values``? Beyond the state
-        of no size a squeezed sheet is found again as its own point reflection. Shells that bend may turn."""
+        """Has every piece of a membrane turned by more than a right angle since it had these ``values``? Beyond the
+        state of no size a squeezed sheet is found again as its own point reflection. Shells that bend may turn."""
         if self.problem.plan.bending:
             return False
         domain, before = self.problem.domain, self._before

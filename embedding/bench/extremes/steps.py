@@ -55,7 +55,8 @@ def cells() -> list[Cell]:
 def _cell(shell: str, value: str, changes: Table, tolerance: float) -> Cell:
     return Cell(
         "steps", shell, value, partial(SCENES[shell], **changes), partial(_usual, shell),
-        "the same shell by its own steps", tolerance=tolerance, answers=_answers, slow=(shell, value) not in QUICK, seconds=300.0,
+        "the same shell by its own steps", tolerance=tolerance, answers=_answers,
+        slow=(shell, value) not in QUICK, seconds=300.0,
         fields=("solver.tolerance",), expected=REFUSED if value.endswith(" 1e-15") else RIGHT,
     )  # fmt: skip
 
