@@ -48,7 +48,7 @@ from problems.exact import conducting_spheres, cylinder, hard_magnetic_elastica,
 from problems.exact import open_tube as exact_tube
 from problems.published import sze_cylinders, sze_strips
 
-OF_SOLIDS = ("thickness", "shear", "opened faces", "closed faces")
+OF_SOLIDS = ("thickness", "shear", "curling", "opened faces", "closed faces")
 """Sources of errors that are those of the theory against the solid body."""
 THIN = "shell.thickness=2e-8"
 """Of shells whose faces are at the mid-surface, as far as the reference knows."""
