@@ -1,6 +1,6 @@
 """The map of extremes, ``embedding bench extremes``, on the page docs/extremes.md.
 
-``python -m benchmarks.extremes [docs] [FAMILY ...]`` prints it; with ``docs`` it goes onto the page as well.
+``python -m benchmarks.extremes [docs] [FAMILY ...]`` prints it; with ``docs`` each of the families goes onto the page.
 """
 
 from __future__ import annotations
@@ -9,37 +9,44 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from benchmarks.pages import tell
-from embedding.bench.extremes import RIGHT, Finding, cells_of, find
+from benchmarks.pages import END, tell
+from embedding.bench.extremes import FAMILIES, RIGHT, Finding, cells_of, find
 from embedding.cli.extremes import arranged, words_of
 
 PAGE = Path(__file__).parents[1] / "docs" / "extremes.md"
+MOST = 8
+"""Columns of a table; where there are more, they change places with the rows."""
 
 
-def tables(found: Sequence[Finding]) -> Iterator[str]:
-    """Each family as a table; rows and columns change places where there are many columns."""
-    for family in dict.fromkeys(one.family for one in found):
-        rows, columns, cells = arranged([one for one in found if one.family == family])
-        yield from ("", f"### {family.capitalize()}", "")
-        yield "| | " + " | ".join(columns) + " |"
-        yield "|" + "---|" * (len(columns) + 1)
-        for row in rows:
-            shown = [cells.get((row, column)) for column in columns]
-            yield f"| {row} | " + " | ".join("" if one is None else words_of(one) for one in shown) + " |"
-
-
-def messages(found: Sequence[Finding]) -> Iterator[str]:
-    """What a user reads in each cell that is not right."""
+def section(found: Sequence[Finding]) -> Iterator[str]:
+    """A family as a table, and what a user reads in each cell that is not right."""
+    rows, columns, cells = arranged(found)
+    words = {place: words_of(one) for place, one in cells.items()}
+    if len(columns) > MOST:
+        rows, columns, words = columns, rows, {(column, row): told for (row, column), told in words.items()}
+    yield "| | " + " | ".join(columns) + " |"
+    yield "|" + "---|" * (len(columns) + 1)
+    for row in rows:
+        yield f"| {row} | " + " | ".join(words.get((row, column), "") for column in columns) + " |"
+    yield ""
     for one in found:
         if one.verdict != RIGHT:
-            text = " ".join(one.message.split())
-            yield f"* *{one.family}: {one.row}, {one.value}* ({words_of(one)}): {text}"
+            yield f"* *{one.row}, {one.value}* ({words_of(one)}): {' '.join(one.message.split())}"
+
+
+def marked(family: str) -> str:
+    """The marker of a family on the page, which is given a section for it if it has none."""
+    mark, text = f"<!-- {family} -->", PAGE.read_text()
+    if mark not in text:
+        title = family.replace("_", " ").capitalize()
+        PAGE.write_text(f"{text.rstrip()}\n\n## {title}\n\n{mark}\n{END}\n")
+    return mark
 
 
 if __name__ == "__main__":
     page = PAGE if "docs" in sys.argv[1:] else None
-    cells = cells_of(*(name for name in sys.argv[1:] if name != "docs"))
-    by_place = {(one.family, one.row, one.value): one for one in find(cells)}
-    everything = [by_place[cell.family, cell.row, cell.value] for cell in cells]
-    tell(tables(everything), page, "<!-- map -->")
-    tell(messages(everything), page, "<!-- messages -->")
+    for family in [name for name in sys.argv[1:] if name != "docs"] or FAMILIES:
+        cells = cells_of(family)
+        by_place = {(one.row, one.value): one for one in find(cells)}
+        mark = marked(family) if page else ""
+        tell(section([by_place[cell.row, cell.value] for cell in cells]), page, mark)

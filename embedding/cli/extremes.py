@@ -71,7 +71,7 @@ def print_map(found: Sequence[Finding]) -> None:
     out = console()
     for family in dict.fromkeys(one.family for one in found):
         rows, columns, cells = arranged([one for one in found if one.family == family])
-        table = Table(title=family, title_justify="left")
+        table = Table(title=family.replace("_", " "), title_justify="left")
         for head in ("", *columns):
             table.add_column(head)
         for row in rows:

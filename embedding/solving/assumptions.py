@@ -110,7 +110,7 @@ def _of_the_shell(problem: Problem, neglected: Neglected) -> Iterator[Assumption
         sentence = "bending stores this against what carries the load"
         yield _assumption(problem, "shell theory", theory, neglected.bending, sentence, "bending")
     if not problem.system.physics.law.incompressible:
-        sentence = "the law is one of small strains: the largest strain of the mid-surface"
+        sentence = "the law is one of small strains: the largest strain, that of bending on the faces included"
         yield _assumption(problem, "small strains", "small", neglected.strain, sentence, "")
 
 

@@ -18,6 +18,7 @@ from embedding.plan.loading import STRETCHES, TIGHTENED, is_displacement
 from embedding.plan.response import Answer
 from embedding.shell.derivatives import Derivatives
 from embedding.shell.kinematics import Kinematics
+from embedding.solving.estimate.bent import Bent
 from embedding.solving.events import StepRecord
 from embedding.solving.problem import Problem
 from embedding.solving.room import gap, reach
@@ -144,8 +145,9 @@ class Neglected:
 
     @property
     def strain(self) -> float:
-        """Largest principal strain of the mid-surface."""
-        return max(abs(self.scalars["stretch_max"] - 1.0), abs(self.scalars["stretch_min"] - 1.0))
+        """Largest principal strain of the mid-surface, and what bending adds to it on the faces."""
+        stretched = max(abs(self.scalars["stretch_max"] - 1.0), abs(self.scalars["stretch_min"] - 1.0))
+        return stretched + (Bent(self.problem).strain if self.problem.plan.bending else 0.0)
 
     @property
     def bending(self) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +11,7 @@ import pytest
 
 from embedding.shell.membrane import Strained
 from embedding.solving.estimate.bent import Bent
-from tests.bent import DISC, RUBBER, clamped, mesh, problem_of
+from tests.bent import DISC, RUBBER, clamped, mesh, metal, problem_of
 from tests.bent import Bent as Solved
 from tests.forms import Array
 
@@ -105,3 +106,14 @@ def test_curling_of_rubber(ratio: float) -> None:
     assert bent.curling == pytest.approx(1.2 * ratio**2, rel=2e-2)
     assert bent.sharpest == pytest.approx(ratio, rel=1e-2)
     assert bent.shear < 1e-6
+
+
+def test_bending_strains_of_a_law_of_small_strains() -> None:
+    """A strip rolled to a full circle: half the thickness over the radius on either face, none in its middle."""
+    T = 0.01
+    rolled = Solved(
+        {"kind": "strip", "length": 1.0}, T, metal(), supports=clamped("x0"),
+        loads={"edge_moments": [{"edge": "x1", "moment": 2 * math.pi * T**3 / 12}]}, path=({},),
+        discretisation=mesh(3, 0.2),
+    ).converged()  # fmt: skip
+    assert Bent(rolled.problem).strain == pytest.approx(math.pi * T, rel=1e-4)

@@ -36,17 +36,17 @@ def balloons() -> list[Cell]:
     ends = {"stretch": 7.0 ** (1 / 6), "factor": LIMIT / 1.3}
     true = frozenset({"LIMIT_POINT"})
     return [
-        Cell("limit points", "balloon", "by pressure, past the limit", partial(_balloon, [{"control": "load"}]),
+        Cell("limit_points", "balloon", "by pressure, past the limit", partial(_balloon, [{"control": "load"}]),
              lambda: ends, "Green and Adkins (1960)", tolerance=2e-2, answers=_with_factor, reasons=true,
              expected=FAILED),
-        Cell("limit points", "balloon", "by arc length, past the limit", partial(_balloon, [{}]),
+        Cell("limit_points", "balloon", "by arc length, past the limit", partial(_balloon, [{}]),
              lambda: {"stretch": 7.0 ** (1 / 6), "factor": LIMIT / 1.3}, "Green and Adkins (1960)", tolerance=1e-5,
              answers=partial(_critical, "limit"), reasons=frozenset({"MAX_ARC"}), expected=FAILED, slow=True),
-        Cell("limit points", "balloon", "by arc length, to twice the size",
+        Cell("limit_points", "balloon", "by arc length, to twice the size",
              partial(_balloon, [{"until": {"where": [0.1, 0.0, 0.0], "axis": "x", "value": 0.1}}]),
              lambda: {"stretch": 2.0, "factor": 2.0 * (2.0**-1 - 2.0**-7) / 1.3}, "Green and Adkins (1960)",
              tolerance=1e-5, answers=_with_factor),
-        Cell("limit points", "balloon", "by volume", partial(_balloon, [{"volume_ratio": 8.0, "steps": 6}]),
+        Cell("limit_points", "balloon", "by volume", partial(_balloon, [{"volume_ratio": 8.0, "steps": 6}]),
              lambda: {"stretch": 2.0, "pressure_difference": 2e2 * (2.0**-1 - 2.0**-7)}, "Green and Adkins (1960)",
              tolerance=1e-5),
     ]  # fmt: skip
@@ -78,13 +78,13 @@ def caps() -> list[Cell]:
     height = 25.0e-3 / (4.0 * math.sqrt(3.0 * (1.0 - 0.09)))
     until = {"where": [0.0, 0.0, 10.0], "axis": "z", "value": -2.0 * height}
     return [
-        Cell("limit points", "cap, snap-through", "by arc length, through it",
+        Cell("limit_points", "cap, snap-through", "by arc length, through it",
              partial(_cap, height, [{"until": until}]), lambda: SNAP, "Marguerre's equations", tolerance=1e-3,
              answers=_turns, slow=True),
-        Cell("limit points", "cap, snap-through", "by pressure, past the limit",
+        Cell("limit_points", "cap, snap-through", "by pressure, past the limit",
              partial(_cap, height, [{"control": "load"}]), lambda: {"factor": SNAP["first"]}, "Marguerre's equations",
              tolerance=2e-2, answers=_with_factor, reasons=frozenset({"LIMIT_POINT"}), expected=FAILED, slow=True),
-        Cell("limit points", "cap, snap-through", "by arc length, to the load behind it",
+        Cell("limit_points", "cap, snap-through", "by arc length, to the load behind it",
              partial(_cap, height, [{}]), lambda: SNAP, "Marguerre's equations", tolerance=1e-3, answers=_turns),
     ]  # fmt: skip
 
@@ -129,7 +129,7 @@ def _column(
     answers: Callable[[Solution], Numbers] = last_scalars, expected: str = RIGHT,
 ) -> Cell:  # fmt: skip
     return Cell(
-        "limit points", row, f"{near:g} of Euler's load", partial(_loaded_column, near, **options), reference,
+        "limit_points", row, f"{near:g} of Euler's load", partial(_loaded_column, near, **options), reference,
         "Euler's column", tolerance=tolerance, answers=answers, expected=expected,
         slow=not 0.999 < near < 1.001,
     )  # fmt: skip

@@ -19,8 +19,6 @@ BODIES: dict[str, tuple[Table, Table]] = {
     "plate": ({"kind": "plate", "length": 1.0, "width": 0.2}, metal(YOUNGS, 0.0)),
 }
 THICKNESSES = (1e-2, 1e-3, 1e-4)
-SIZE = {"plate": 0.2}
-"""Of elements, where it is not a tenth of the length."""
 
 
 def cells() -> list[Cell]:
@@ -68,5 +66,5 @@ def _rolled(body: str, ratio: float, turns: float) -> Scene:
         "rolled", shape, ratio, material, supports=clamped("x0"),
         loads={"edge_moments": [{"edge": "x1", "moment": moment}]},
         model={"theory": "bending"}, output={"points": {"tip": tip}}, solver={"max_arc": 100.0},
-        discretisation={"shell_size": SIZE.get(body, 0.1)},
+        discretisation={"shell_size": 0.1},
     )  # fmt: skip

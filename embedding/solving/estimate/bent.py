@@ -15,7 +15,7 @@ import math
 from typing import Any
 
 import numpy as np
-from ngsolve import ET, IntegrationRule
+from ngsolve import CF, ET, IntegrationRule
 
 from embedding.solving.problem import Problem
 
@@ -61,11 +61,20 @@ class Bent:
     @property
     def sharpest(self) -> float:
         """Largest curvature times thickness of rubber; 0 of other materials."""
-        if not self._law.incompressible:
-            return 0.0
+        return math.sqrt(self._largest(self.curvature_squared)) if self._law.incompressible else 0.0
+
+    @property
+    def strain(self) -> float:
+        """Largest strain on the faces from bending, of a law of small strains: half of curvature times thickness."""
+        stored = self._bending.stored(self._values, self._state, self._factor)
+        stiff = self._law.youngs / (1 - self._law.poisson**2) * self._thickness
+        return math.sqrt(self._largest(6 * stored / stiff))
+
+    def _largest(self, function: Any) -> float:
+        """Of a function on the shell, at several points of every element; 0 if it is negative."""
         rule = IntegrationRule(ET.TRIG if self._domain.mesh.dim == 3 else ET.SEGM, 2 * self._domain.sizes.order)
         points = self._domain.mesh.MapToAllElements(rule, self._domain.shell)
-        return math.sqrt(max(float(np.asarray(self.curvature_squared(points)).max()), 0.0))
+        return max(float(np.asarray(CF(function)(points)).max()), 0.0)
 
     @property
     def _modulus(self) -> Any:
