@@ -48,7 +48,7 @@ def rolled(body: str, ratio: float, turns: float) -> Cell:
 def _expected(body: str, ratio: float, turns: float) -> str:
     """Meshes do not resolve five turns, and rubber curls by more than its theory has; both is told."""
     curls = "rubber" in body and turns * ratio > 1e-3
-    return TOLD if body == "plate" or turns > 4.0 or curls else RIGHT
+    return TOLD if turns > 4.0 or curls else RIGHT
 
 
 def _same(numbers: Mapping[str, float]) -> Mapping[str, float]:
