@@ -35,6 +35,13 @@ def permeable(strength: float) -> dict[str, Any]:
     }
 
 
+def bent(ratio: float, loads: dict[str, Any], **solver: float) -> dict[str, Any]:
+    """A cantilever strip of rubber."""
+    shell = {"shape": {"kind": "strip", "length": 1.0}, "thickness": ratio, "material": RUBBER}
+    held = [{"where": "x0", "kind": "clamped"}]
+    return {"shell": shell, "supports": held, "model": {"theory": "bending"}, "loads": loads, "solver": solver}
+
+
 PLANTED: dict[Result, dict[str, Any]] = {
     Result.CONVERGED: inflated(0.5),
     Result.LIMIT_POINT: inflated(1.2, path=[{"steps": 2}], solver={"min_step": 0.1}),
@@ -65,6 +72,10 @@ PLANTED: dict[Result, dict[str, Any]] = {
         "faces": {"both": {"voltage": 1e3}}, "model": {"interface": "closed"},
         "accuracy": {"relative": 1e-6, "of": ["charge"], "max_unknowns": 1000},
     },
+    Result.TOO_THIN: bent(
+        1e-7, {"edge_tractions": [{"edge": "x1", "traction": [0.0, 4 / 3 * MU * 1e-7**3, 0.0]}]}, min_step=0.1
+    ),
+    Result.SHARPLY_BENT: bent(0.2, {"edge_moments": [{"edge": "x1", "moment": 0.2 * MU * 0.2**2}]}, max_arc=1.0),
     Result.INTERRUPTED: inflated(0.5),
 }  # fmt: skip
 
