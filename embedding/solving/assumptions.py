@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 
 from embedding.errors import SceneError
 from embedding.plan.allowance import UNSTATED
+from embedding.plan.far_field import ENOUGH
 from embedding.plan.field import cramped
 from embedding.plan.mesh import rim_size
 from embedding.scene import Scene
@@ -18,6 +19,7 @@ from embedding.solving.events import StepRecord
 from embedding.solving.neglected import Neglected
 from embedding.solving.problem import Problem
 from embedding.solving.result import Result
+from embedding.solving.room import reach
 from embedding.solving.solution import Assumption
 
 RUNGS = {
@@ -80,6 +82,19 @@ def _checked(problem: Problem, neglected: Neglected) -> Iterator[Assumption]:
     if ambient.outer == "free-space" and not plan.sizes.beyond:
         sentence = "Robin's condition misses so much of the multipoles, by how far the deformed shell reaches"
         yield _assumption(problem, "far field", "second-order Robin", neglected.far_field, sentence, "infinite")
+        yield from _of_soft_modes(problem, neglected)
+
+
+def _of_soft_modes(problem: Problem, neglected: Neglected) -> Iterator[Assumption]:
+    """Where modes were found unstable: shapes of soft rubber in a field of their own are nearly indifferent, as drops
+    are, and what Robin's condition misses of their multipoles may tip them over."""
+    if not any(step.scalars.get("unstable_modes", 0.0) > 0.0 for step in neglected.steps):
+        return
+    number = reach(problem) / problem.plan.sizes.radius
+    sentence = "Robin's condition may tip soft modes over, by how far the deformed shell reaches into the space"
+    rung = () if _pinned(problem.scene, "infinite") else (RUNGS["infinite"],)
+    held = number <= 1 / ENOUGH
+    yield Assumption("stability", "second-order Robin", number, 1 / ENOUGH, held, sentence, rung)
 
 
 def _of_the_field(problem: Problem, neglected: Neglected) -> Iterator[Assumption]:

@@ -12,9 +12,10 @@ from scipy.linalg import null_space
 
 from embedding import Scene
 from embedding.ambient.sources import Electrodes, Source
+from embedding.bench.extremes.fields import balloon_voltage, charged
 from embedding.coupling.lagrangian import ANCHOR
 from embedding.coupling.system import System
-from embedding.solving.driver import Run
+from embedding.solving.driver import Run, run
 from embedding.solving.stability import unstable_modes
 from tests.coupling.scenes import coupled, distort
 
@@ -207,3 +208,18 @@ def test_the_interior_that_newton_freezes_is_an_error_of_the_mesh() -> None:
         for number in (0, 2):
             curvature = curvature_of_energy(system, allowed @ modes[:, number], 1e-3)
             assert curvature == pytest.approx(values[number], rel=1e-5)
+
+
+@pytest.mark.slow
+def test_soft_modes_beside_robins_condition() -> None:
+    """A charged membrane bears the pull of its field by tension alone, as a drop at Rayleigh's limit (Phil. Mag. 14
+    (1882) 184) that rubber holds a little: it is stable at every voltage. Robin's condition too near tips its softest
+    mode over, and the solution says so; the infinite map does not."""
+    path = [{"until": {"where": [0, 0, R], "axis": "z", "value": 1.3 * R}}]
+    table = charged({"voltage": balloon_voltage(5.3)}, path=path)
+    for far_field, count in (("robin", 1), ("infinite", 0)):
+        model = {"interface": "closed", "far_field": far_field}
+        solution = run(Scene.from_table({**table, "model": model}))
+        assert solution.result.ok and len(solution.critical_points) == count
+        told = [one for one in solution.assumptions if one.topic == "stability"]
+        assert [one.held for one in told] == [False] * count

@@ -41,9 +41,11 @@ def disc_charge() -> float:
 
 
 def disc_charge_over(gap: float) -> float:
-    """The same over a grounded plane, for a small ``gap``: Kirchhoff's two discs at twice the gap (Landau and Lifshitz,
-    Electrodynamics of Continuous Media, sec. 3, problem); what is left out is of the order gap^2 ln gap."""
-    return EPSILON_0 * VOLTAGE * (math.pi / gap + 2 * (math.log(8 * math.pi / gap) - 1))
+    """The same over a grounded plane, for a small ``gap``: two discs at twice the gap by Kirchhoff (Landau and
+    Lifshitz, Electrodynamics of Continuous Media, sec. 3), with the next term in the gap (S. J. N. Shaw, Phys. Fluids
+    13 (1970) 1935)."""
+    log = math.log(8 * math.pi / gap)
+    return EPSILON_0 * VOLTAGE * (math.pi / gap + 2 * (log - 1) + gap / math.pi * (log**2 - 2))
 
 
 class Faces(NamedTuple):
