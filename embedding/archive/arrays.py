@@ -42,7 +42,7 @@ def attributes(item: Any) -> dict[str, Any]:
 
 def value_of(attribute: Any) -> npt.NDArray[Any]:
     """The value of a stored attribute: a number, a text of fixed length, or an array of these."""
-    value = np.empty(attribute.shape, attribute.dtype)
+    value = np.empty(attribute.shape, _plain(attribute))
     attribute.read(value)
     return np.asarray(value[()])
 
@@ -90,7 +90,7 @@ def put(dataset: Any, start: int, rows: Any) -> npt.NDArray[Any]:
     """Write ``rows`` from row ``start`` of a dataset (or its identifier) on, over whatever an unfinished step may have
     left there; returns them as they are stored."""
     stored = dataset if isinstance(dataset, h5d.DatasetID) else dataset.id
-    values = np.ascontiguousarray(rows, stored.dtype)
+    values = np.ascontiguousarray(rows, _plain(stored))
     length, shape = stored.shape[0], stored.shape[1:]
     if start + len(values) > length:
         stored.set_extent((start + len(values), *shape))
@@ -104,11 +104,19 @@ def rows(dataset: Any, begin: int, end: int) -> npt.NDArray[Any]:
     """The rows of a dataset (or its identifier) from ``begin`` on, before ``end``, as far as there are any."""
     stored = dataset if isinstance(dataset, h5d.DatasetID) else dataset.id
     length, shape = stored.shape[0], stored.shape[1:]
-    values = np.empty((max(min(end, length) - begin, 0), *shape), stored.dtype)
+    values = np.empty((max(min(end, length) - begin, 0), *shape), _plain(stored))
     if values.size:
         memory, place = _places(stored, begin, values.shape)
         stored.read(memory, place, values, stored.get_type())
     return values
+
+
+def _plain(stored: Any) -> npt.DTypeLike:
+    """The type of a stored dataset or attribute. Texts of variable length are refused, which no archive has: HDF5's own
+    calls would put pointers to them where Python has objects."""
+    if stored.dtype.hasobject:
+        raise ValueError(f"{stored.dtype} where numbers were written")
+    return stored.dtype  # type: ignore[no-any-return]
 
 
 def _places(stored: Any, start: int, shape: tuple[int, ...]) -> tuple[Any, Any]:

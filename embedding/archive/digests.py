@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Mapping
+from itertools import islice
 from typing import Any
 
 import h5py
@@ -23,6 +24,8 @@ Digest = npt.NDArray[np.uint8]
 TABLES = ("steps", "scalars", "vtk")
 GROWING = ("embedding/committed", "embedding/digest", *(f"embedding/{name}" for name in (
     *TABLES, "newton", "checkpoint", "finish")))  # fmt: skip
+MOST_ITEMS, DEEPEST = 100_000, 8
+"""Of the groups, datasets and attributes of an archive, and of groups in groups: more are links in a circle."""
 LINKS = ("Steps", "FieldData")
 """Groups of a block that hold nothing of their own: links to tables."""
 CHANGING = ("NSteps", "run", *AXES)
@@ -101,10 +104,15 @@ def values_digest(fields: Mapping[str, Any]) -> Digest:
 
 def record_digest(file: Any) -> Digest:
     """Of all that does not grow with the steps: documents, meshes, origins, and the names and attributes of all."""
-    return digest_of(*_static(file["/"].id, ""))
+    parts = list(islice(_static(file["/"].id, ""), MOST_ITEMS + 1))
+    if len(parts) > MOST_ITEMS:
+        raise ValueError("links that lead round in a circle")
+    return digest_of(*parts)
 
 
 def _static(group: Any, path: str) -> Iterator[Any]:
+    if path.count("/") > DEEPEST:
+        raise ValueError("links that lead round in a circle")
     yield from _attributes(group, path)
     for name in sorted(link.decode() for link in group):
         place = f"{path}/{name}".lstrip("/")

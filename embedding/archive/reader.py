@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from functools import cached_property
 from pathlib import Path
@@ -13,7 +12,9 @@ import numpy.typing as npt
 
 from embedding.archive.arrays import noted
 from embedding.archive.digests import damaged_rows, digest_of, record_digest, slot_digest
+from embedding.archive.documents import document
 from embedding.archive.file import reading
+from embedding.archive.lagrange import CELL_TYPES, lagrange_nodes
 from embedding.archive.layout import (
     NEWTON_COLUMNS,
     PLACES,
@@ -37,6 +38,7 @@ from embedding.archive.records import (
 from embedding.archive.verification import verify
 from embedding.errors import ArchiveError
 from embedding.scene import Scales, Scene
+from embedding.scene.toml_io import read_table
 from embedding.solving.events import Iteration, StepRecord
 from embedding.solving.solution import Assumption, Check, CriticalPoint
 
@@ -53,6 +55,8 @@ __all__ = [
 ]
 
 Floats = npt.NDArray[np.float64]
+HIGHEST = 10
+"""Order of Lagrange cells."""
 
 
 def open_archive(path: str | os.PathLike[str]) -> Archive:
@@ -83,6 +87,8 @@ class Archive:
         """Look for steps committed since the archive was opened; returns how many there are now."""
         with reading(self.path) as file:
             self._committed = count_of(file["embedding/committed"])
+            if self._committed > len(file["embedding/steps/rows_digest"]):
+                raise ValueError(f"{self._committed} steps, and rows of fewer")
         self._rows_hold = False
         for name in ("steps", "scalars", "_end"):
             self.__dict__.pop(name, None)
@@ -101,16 +107,26 @@ class Archive:
         """The scene, ready to be solved again. Raises SceneError if this version no longer accepts it."""
         return Scene.from_toml(self.scene, source=str(self.path))
 
+    def scene_table(self) -> dict[str, Any]:
+        """The scene as nested tables, also one that this version no longer accepts; it has ``shell.thickness`` and
+        ``shell.shape.kind``. Raises ArchiveError or SceneError if it is no scene."""
+        table = read_table(self.scene, str(self.path))
+        try:
+            str(table["shell"]["thickness"]), str(table["shell"]["shape"]["kind"])
+        except (KeyError, TypeError) as error:
+            raise ArchiveError(f"{self.path}: the archive is damaged: its scene has no shell") from error
+        return table
+
     @cached_property
     def plan(self) -> ArchivedPlan:
         """Decisions of the plan."""
         plan = self._json("plan")
-        return ArchivedPlan(tuple(ArchivedDecision(**one) for one in plan["decisions"]), plan["text"])
+        return ArchivedPlan(plan["decisions"], plan["text"])
 
     @cached_property
     def scales(self) -> Scales:
         """The scales of the run."""
-        return Scales(**self._json("scales"))
+        return cast(Scales, self._json("scales"))
 
     @cached_property
     def versions(self) -> dict[str, str]:
@@ -126,33 +142,32 @@ class Archive:
     @property
     def result(self) -> ArchivedResult:
         """How the run ended; its name is "unfinished" as long as it has not."""
-        return ArchivedResult(**self._end["result"]) if self._end else UNFINISHED
+        return cast(ArchivedResult, self._end.get("result", UNFINISHED))
 
     @property
     def error(self) -> ArchivedError | None:
         """The estimated error of the answer, if the run has ended with one."""
-        return ArchivedError(**self._end["error"]) if self._end.get("error") else None
+        return self._end.get("error")
 
     @property
     def errors(self) -> dict[str, ArchivedError]:
         """The estimated error of every scalar of the last step, if the run has ended with them."""
-        return {name: ArchivedError(**error) for name, error in self._end.get("errors", {}).items()}
+        return dict(self._end.get("errors", {}))
 
     @property
     def assumptions(self) -> tuple[Assumption, ...]:
         """What the plan left out, checked on the last step, known once the run has ended."""
-        found = self._end.get("assumptions", ())
-        return tuple(Assumption(**{**one, "rung": tuple(one["rung"])}) for one in found)
+        return tuple(self._end.get("assumptions", ()))
 
     @property
     def health(self) -> tuple[Check, ...]:
         """Whether mesh and equations were fit to give an answer, known once the run has ended well."""
-        return tuple(Check(**one) for one in self._end.get("health", ()))
+        return tuple(self._end.get("health", ()))
 
     @property
     def cost(self) -> ArchivedCost | None:
         """What the run cost, if it has ended."""
-        return ArchivedCost(**self._end["cost"]) if self._end.get("cost") else None
+        return self._end.get("cost")
 
     @property
     def cuts(self) -> tuple[dict[str, Any], ...]:
@@ -170,10 +185,7 @@ class Archive:
     def critical_points(self) -> tuple[CriticalPoint, ...]:
         """Limit and bifurcation points that the path went through, known once the run has ended."""
         found = self._end.get("critical_points", ())
-        return tuple(
-            CriticalPoint(**{**point, "mode": np.array(point["mode"]), "unstable": tuple(point["unstable"])})
-            for point in found
-        )
+        return tuple(CriticalPoint(**{**point, "mode": np.array(point["mode"])}) for point in found)
 
     @cached_property
     def steps(self) -> tuple[StepRecord, ...]:
@@ -185,8 +197,8 @@ class Archive:
             ends = table.pop("newton_end").tolist()
             rows = ends[-1] if ends else 0
             newton = [file["embedding/newton"][name][:rows].tolist() for name in NEWTON_COLUMNS]
-        columns = {name: column.tolist() for name, column in table.items()}
-        columns["stage"] = [stage.decode() for stage in columns["stage"]]
+            columns = {name: column.tolist() for name, column in table.items()}
+            columns["stage"] = [stage.decode() for stage in columns["stage"]]
         iterations = [Iteration(*row) for row in zip(*newton, strict=True)]
         own = [name for name in self.scalars if name not in columns]
         return tuple(
@@ -297,7 +309,7 @@ class Archive:
             data = finish["json"][: count_of(finish["length"])]
             if len(data) and not np.array_equal(digest_of(data), finish["digest"][...]):
                 raise ArchiveError(f"{self.path}: the archive is damaged: how the run ended")
-            return cast(dict[str, Any], json.loads(data.tobytes())) if len(data) else {}
+            return cast(dict[str, Any], document("finish", data.tobytes())) if len(data) else {}
 
     def _text(self, name: str) -> str:
         self._check_record()
@@ -305,7 +317,9 @@ class Archive:
             return bytes(file["embedding"][name][()]).decode()
 
     def _json(self, name: str) -> Any:
-        return json.loads(self._text(name))
+        text = self._text(name)
+        with reading(self.path):
+            return document(name, text)
 
 
 class ArchivedBlock:
@@ -329,6 +343,16 @@ class ArchivedBlock:
             self.cells: npt.NDArray[np.int64] = group["Connectivity"][rows["ConnectivityId"]].reshape(-1, nodes)
             data = group.get("PointData", {})
             self.units: dict[str, str] = {field: noted(column, "unit") for field, column in data.items()}
+            self._check_mesh(counts["Point"])
+
+    def _check_mesh(self, points: int) -> None:
+        """Raises ValueError if the mesh is none."""
+        dimension = next((d for d, kind in CELL_TYPES.items() if kind == self.cell_type), 0)
+        nodes = len(lagrange_nodes(dimension, self.order)) if dimension and 1 <= self.order <= HIGHEST else 0
+        if self.points.shape != (points, 3) or self.cells.shape[1] != nodes:
+            raise ValueError(f"{self.name} has no mesh of points and Lagrange cells")
+        if self.cells.size and not 0 <= self.cells.min() <= self.cells.max() < points:
+            raise ValueError(f"cells of {self.name} have points that there are not")
 
     @property
     def fields(self) -> tuple[str, ...]:
@@ -353,4 +377,7 @@ class ArchivedBlock:
                     f"{self.archive.path}: step {number} has another mesh: ask for block({self.name!r}, {number})"
                 )
             begin, dataset = int(file["embedding/vtk"][table("Row", self.name)][number]), group["PointData"][name]
-            return cast(npt.NDArray[np.float32], dataset[begin : begin + len(self.points)])
+            values = dataset[begin : begin + len(self.points)]
+            if len(values) != len(self.points) or values.shape[1:] not in ((), (3,), (9,)):
+                raise ValueError(f"{name} of {self.name} is no field on its mesh")
+            return cast(npt.NDArray[np.float32], values)

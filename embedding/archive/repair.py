@@ -41,6 +41,8 @@ def salvage(path: str | os.PathLike[str], target: str | os.PathLike[str]) -> int
     Raises ArchiveError if there are none, or if the archive cannot be written.
     """
     source, copy = Path(path), check_target(target)
+    if copy.exists() and copy.samefile(source):
+        raise ArchiveError(f"{copy}: is the damaged archive itself; name another file")
     with reading_what_is_left(source) as (file, damages):
         found = verified(source, file, damages)
         if not found.saveable:

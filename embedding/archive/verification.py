@@ -179,9 +179,12 @@ class _Check:
     def _count(self) -> int:
         """The number of steps; if it is damaged, of those that have whole rows."""
         try:
-            return count_of(self.file["embedding/committed"])
+            count, steps = count_of(self.file["embedding/committed"]), len(self.file["embedding/steps/rows_digest"])
+            if count <= steps:
+                return count
         except Exception:
-            self.damages.append("the number of steps")
+            pass
+        self.damages.append("the number of steps")
         try:
             steps = len(self.file["embedding/steps/rows_digest"])
         except Exception:

@@ -12,6 +12,7 @@ from embedding.plan.decisions import Decision, Extent, Plan
 from embedding.plan.effects import Effects
 from embedding.plan.field import choose_extent, choose_interface, describe_potential
 from embedding.plan.mesh import choose_sizes, rim_size
+from embedding.plan.meshable import refuse_what_cannot_be_meshed
 from embedding.plan.response import BEYOND
 from embedding.plan.symmetry import choose_reduction, odd_planes
 from embedding.plan.theory import choose_locking, choose_theory, judge_thinness
@@ -30,6 +31,7 @@ def explain(scene: Scene) -> Plan:
     odd = odd_planes(scene, reduction)
     extent, field = choose_extent(scene, effects, allowance)
     sizes, mesh = choose_sizes(scene, reduction.name, effects, allowance, meshed=extent == "surroundings")
+    refuse_what_cannot_be_meshed(scene, sizes, reduction.dimension)
     opened: tuple[str, ...] = ()
     if extent == "surroundings":
         opened, faces = choose_interface(scene, rim_size(scene, sizes), effects, allowance)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from dataclasses import dataclass
 from typing import Any
 
@@ -78,7 +77,7 @@ def _names(archive: Archive) -> set[str]:
 
 
 def _scene_differences(one: Archive, other: Archive) -> tuple[tuple[str, str, str], ...]:
-    first, second = (_flat(tomllib.loads(archive.scene)) for archive in (one, other))
+    first, second = (_flat(archive.scene_table()) for archive in (one, other))
     paths = dict.fromkeys([*first, *second])
     absent = "absent"
     return tuple(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,7 +21,7 @@ def half_thickness(run: Archive, shell: Patch) -> float:
     """Largest half of the deformed thickness in m; 0 where an older archive does not tell it."""
     if "thickness" in shell.block.units:
         return float(shell.block.field("thickness", shell.step).max()) / 2
-    stated: Any = tomllib.loads(run.scene)["shell"]["thickness"]
+    stated: Any = run.scene_table()["shell"]["thickness"]
     thickness = float(stated) if isinstance(stated, (int, float)) else 0.0
     if "thickness_stretch" in shell.block.units:
         thickness *= float(shell.block.field("thickness_stretch", shell.step).max())

@@ -18,6 +18,8 @@ from embedding.post.table import PostError, Table, stacked
 
 Floats = npt.NDArray[np.float64]
 Source = Archive | str | os.PathLike[str]
+MOST_POINTS = 1_000_000
+"""Of a line."""
 OFF = 1e-3  # how far beside the mid-surface, relative to the size of the shell, a material point counts as on it
 TOUCHING = 1e-4  # the same of a point in space: closer than a mesh knows where its surface is
 IN_SHELL, IN_BODY, BEYOND = "in the shell", "in a body, or where no field is meshed", "beyond the meshed space"
@@ -104,8 +106,8 @@ def line(
     steps: Sequence[int] | None = None,
 ) -> Table:
     """:func:`probe` at ``count`` points evenly spaced from ``start`` to ``end``, with the ``distance`` from there."""
-    if count < 2:
-        raise PostError(f"a line has at least 2 points, not {count}")
+    if not 2 <= count <= MOST_POINTS:
+        raise PostError(f"a line has at least 2 points and at most {MOST_POINTS}, not {count}")
     begin, stop = _points([start])[0], _points([end])[0]
     table = probe(
         archive, np.linspace(begin, stop, count), fields=fields, side=side, steps=steps

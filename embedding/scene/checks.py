@@ -15,7 +15,7 @@ from embedding.scene.checks_field import FIELD_CHECKS
 from embedding.scene.checks_loads import LOAD_CHECKS
 from embedding.scene.checks_matter import MATTER_CHECKS
 from embedding.scene.checks_shell import SHELL_CHECKS
-from embedding.scene.messages import quoted
+from embedding.scene.messages import key_path, quoted
 from embedding.scene.output import output_problems
 from embedding.scene.part import Unavailable, known
 from embedding.scene.symmetry import UNSYMMETRIC
@@ -65,7 +65,7 @@ def _edge_sizes(scene: Scene) -> Iterator[Problem]:
     for edge in scene.discretisation.edge_size:
         names = tuple(dict.fromkeys((*shape.edges, *shape.kinks)))
         if edge not in names:
-            path = f"discretisation.edge_size.{edge}"
+            path = key_path(("discretisation", "edge_size", edge))
             kind = f'a shape of kind "{shape.kind}"'
             yield Problem(path, f"unknown edge: {kind} has {quoted(names) or 'no edges'}")
 

@@ -11,6 +11,7 @@ from embedding.scene.messages import choice
 from embedding.scene.part import known
 from embedding.scene.shapes import Point
 from embedding.scene.surface_fields import SurfaceField
+from embedding.scene.units import LARGEST
 from embedding.scene.vector_fields import ForceField, VectorField
 
 if TYPE_CHECKING:
@@ -77,17 +78,21 @@ def _gravity(scene: Scene) -> Iterator[Problem]:
 
 def _values(scene: Scene) -> Iterator[Problem]:
     for path, field in surface_fields(scene):
-        bad = [point for point in scene.shell.shape.sample_points() if not math.isfinite(field.value_at(point))]
-        if bad:
-            message = f"{field.expression} is not allowed: it has no finite value at {_place(bad[0])}"
-            yield Problem(path, message)
+        for point in scene.shell.shape.sample_points():
+            value = field.value_at(point)
+            if not abs(value) <= LARGEST:
+                reason = f"must be at most {LARGEST:g} in magnitude, and is {value:.3g}"
+                said = reason if math.isfinite(value) else "it has no finite value"
+                yield Problem(path, f"{field.expression} is not allowed: {said} at {_place(point)}")
+                break
 
 
 def _thick(scene: Scene) -> Iterator[Problem]:
     for path, field in scene.shell.thickness_fields.items():
-        points = [point for point in scene.shell.shape.sample_points() if field.value_at(point) <= 0.0]
+        points = [point for point in scene.shell.shape.sample_points() if field.value_at(point) < 1.0 / LARGEST]
         if points:
-            reason = f"must be greater than 0, and is {field.value_at(points[0]):.3g} m at {_place(points[0])}"
+            least = "greater than 0" if field.value_at(points[0]) <= 0.0 else f"at least {1.0 / LARGEST:g} m"
+            reason = f"must be {least}, and is {field.value_at(points[0]):.3g} m at {_place(points[0])}"
             yield Problem(f"shell.{path}.expression", f"{field.expression} is not allowed: {reason}")
 
 

@@ -40,7 +40,7 @@ def choice(value: Any, allowed: Iterable[str]) -> str:
     names = tuple(allowed)
     guess = nearest(value, names) if isinstance(value, str) else None
     hint = f'; did you mean "{guess}"?' if guess else ""
-    shown = f'"{_short(value)}"' if isinstance(value, str) else show(value)
+    shown = f'"{printable(value)}"' if isinstance(value, str) else show(value)
     return f"{shown} is not allowed: must be {quoted(names)}{hint}"
 
 
@@ -63,14 +63,14 @@ def show(value: Any, unit: str = "") -> str:
     if isinstance(value, (int, float)):
         return f"{int(value) if isinstance(value, int) else float(value)} {unit}".rstrip()
     if isinstance(value, str):
-        return _short(value) or '""'
+        return printable(value) or '""'
     if isinstance(value, Mapping):
         return "a table"
     if isinstance(value, BaseModel):
         return f"a {type(value).__name__}"
     if isinstance(value, (list, tuple)):
-        return _short(f"[{', '.join(show(item) for item in value[:8])}{', ...' if len(value) > 8 else ''}]")
-    return _short(str(value))
+        return printable(f"[{', '.join(show(item) for item in value[:8])}{', ...' if len(value) > 8 else ''}]")
+    return printable(str(value))
 
 
 def problems_of(error: ValidationError, model: type[BaseModel]) -> tuple[Problem, ...]:
@@ -80,10 +80,11 @@ def problems_of(error: ValidationError, model: type[BaseModel]) -> tuple[Problem
 
 def key_path(parts: Iterable[object]) -> str:
     """The dotted path; the number of an entry of a list counts from 0."""
-    return ".".join(_short(str(part)) for part in parts)
+    return ".".join(printable(str(part)) or '""' for part in parts)
 
 
-def _short(text: str, limit: int = 60) -> str:
+def printable(text: str, limit: int = 60) -> str:
+    """The beginning of a stranger's text on one line, without what would work on a terminal."""
     line = "".join(character if character.isprintable() else " " for character in text)
     return line if len(line) <= limit else f"{line[: limit - 3]}..."
 

@@ -9,6 +9,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from embedding.errors import Problem, SceneError
+from embedding.scene.depth import MAX_DEPTH, TOO_DEEP, too_deep
+from embedding.scene.messages import printable
 
 
 def apply_overrides(table: Mapping[str, Any], overrides: Sequence[str], source: str | None = None) -> dict[str, Any]:
@@ -26,7 +28,7 @@ def apply_overrides(table: Mapping[str, Any], overrides: Sequence[str], source: 
             keys, value = parse_override(text)
             _assign(changed, keys, value)
         except ValueError as error:
-            problems.append(Problem(text.partition("=")[0].strip() or text, str(error)))
+            problems.append(Problem(printable(text.partition("=")[0].strip() or text, 200), str(error)))
     if problems:
         raise SceneError(problems, source)
     return changed
@@ -40,6 +42,8 @@ def parse_override(text: str) -> tuple[list[str], Any]:
     """
     key, equals, value = text.partition("=")
     keys = [part.strip() for part in key.split(".")]
+    if len(keys) > MAX_DEPTH:
+        raise ValueError(TOO_DEEP)
     if not equals:
         raise ValueError("an override reads key=value, such as shell.thickness=0.1 mm")
     if not all(keys):
@@ -52,9 +56,11 @@ def _value(text: str) -> Any:
         parsed = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError) as error:
         if text[:1] in ("[", "{", '"', "'"):
-            raise ValueError(f"{text} is not a valid TOML value") from error
+            raise ValueError(f"{printable(text)} is not a valid TOML value") from error
         return text
     value = parsed["value"]
+    if too_deep(value):
+        raise ValueError(TOO_DEEP)
     # a line break would smuggle in further keys, and a date is only ever meant as a name here
     return text if len(parsed) > 1 or isinstance(value, (datetime.date, datetime.time)) else value
 

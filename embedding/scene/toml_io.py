@@ -11,6 +11,7 @@ from typing import Any
 import tomli_w
 
 from embedding.errors import Problem, SceneError
+from embedding.scene.depth import TOO_DEEP, too_deep
 from embedding.scene.overrides import apply_overrides
 from embedding.scene.scene import Scene
 
@@ -35,12 +36,15 @@ def read_table(text: str, source: str | None = None) -> dict[str, Any]:
         SceneError: not TOML; the message gives line and column.
     """
     try:
-        return tomllib.loads(text)
+        table = tomllib.loads(text)
     except RecursionError:
-        raise _unreadable("not valid TOML: nested too deeply", source) from None
+        raise _unreadable(TOO_DEEP, source) from None
     except ValueError as error:  # TOMLDecodeError, and numbers or dates that Python refuses
         reason = " ".join(str(error).split())
         raise _unreadable(f"not valid TOML: {reason}", source) from error
+    if too_deep(table):
+        raise _unreadable(TOO_DEEP, source)
+    return table
 
 
 def write_table(table: Mapping[str, Any]) -> str:

@@ -17,7 +17,7 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator
 from pydantic_core import PydanticCustomError
 
-from embedding.scene.messages import refusal
+from embedding.scene.messages import printable, refusal
 
 LARGEST = 1e30
 """Largest magnitude accepted anywhere; products of a few such numbers still fit into a float."""
@@ -53,7 +53,7 @@ def unit_factor(unit: str, si: str) -> Decimal:
     if known is not None:
         return known
     if not _UNIT.fullmatch(unit):
-        raise ValueError(f'"{unit}" is not a unit')
+        raise ValueError(f'"{printable(unit)}" is not a unit')
     import pint
 
     registry = _registry()
@@ -66,7 +66,7 @@ def unit_factor(unit: str, si: str) -> Decimal:
         dimension = str(error.dim1).strip(" ()").replace("[", "").replace("]", "")
         raise ValueError(f'"{unit}" is a unit of {dimension}') from error
     except Exception as error:  # the unit library answers odd text with many kinds of error
-        raise ValueError(f'"{unit}" is not a unit') from error
+        raise ValueError(f'"{printable(unit)}" is not a unit') from error
 
 
 def plain_factor(unit: str, si: str) -> Decimal | None:
@@ -129,7 +129,7 @@ class Number:
 
     def __call__(self, value: Any) -> float | int:
         number = self._convert(value)
-        if not math.isfinite(number):
+        if isinstance(number, float) and not math.isfinite(number):
             raise self._refusal("must be finite")
         outside = (
             (self.above is not None and number <= self.above)

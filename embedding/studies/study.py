@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
@@ -18,6 +19,9 @@ from embedding.studies.quantities import Quantity, stated_quantities
 
 Count = Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=1024))]
 Seconds = Annotated[float, BeforeValidator(Number("time", "s", "10 min", above=0.0))]
+
+MOST_CASES = 100_000
+"""Of a study: the scene of each is checked before the first is solved, which takes minutes for so many."""
 
 RESERVED = ("case", "status", "reason", "start", "iterations", "seconds", "estimated_error")
 """Columns that every table has."""
@@ -60,7 +64,7 @@ class LatinHypercube(Part):
     """
 
     kind: Literal["latin-hypercube"] = "latin-hypercube"
-    samples: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=1_000_000))]
+    samples: Annotated[int, BeforeValidator(Number(whole=True, at_least=1, at_most=MOST_CASES))]
     seed: Annotated[int, BeforeValidator(Number(whole=True, at_least=0, at_most=2**31))] = 0
 
 
@@ -123,6 +127,10 @@ class Study(Part):
         if isinstance(self.design, Grid):
             self._together(self.design)
             self._along(self.design)
+            count = math.prod(len(self.parameters[axis[0]]) for axis in self.axes)
+            if count > MOST_CASES:
+                reason = f"every combination makes {count:.0e} cases, and a study has at most {MOST_CASES}"
+                raise refusal(reason, field="parameters", value=self.parameters)
         return self
 
     def _along(self, design: Grid) -> None:

@@ -4,7 +4,6 @@ units."""
 from __future__ import annotations
 
 import os
-import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -163,7 +162,7 @@ def is_closed(archive: Archive) -> bool:
 
 
 def _kind(archive: Archive) -> str:
-    return str(tomllib.loads(archive.scene)["shell"]["shape"]["kind"])
+    return str(archive.scene_table()["shell"]["shape"]["kind"])
 
 
 def telling(archive: Archive, step: int) -> str:
@@ -176,7 +175,7 @@ def telling(archive: Archive, step: int) -> str:
 
 def _edge_radius(archive: Archive, step: int, size: float) -> float:
     """Half the thickness of the shell, as its cut is drawn; a thin shell is drawn thick enough to be seen."""
-    stated = tomllib.loads(archive.scene)["shell"]["thickness"]
+    stated = archive.scene_table()["shell"]["thickness"]
     thickness = float(stated) if isinstance(stated, (int, float)) else 0.0  # one that varies is drawn as a line
     shell = archive.block("shell", step)
     if "thickness_stretch" in shell.units:

@@ -14,6 +14,7 @@ from pydantic import model_validator
 from embedding.scene.messages import refusal
 from embedding.scene.part import known
 from embedding.scene.shapes.base import SHARP, Point, Surface
+from embedding.scene.shapes.trial import why_not
 from embedding.scene.texts import FilePath
 from embedding.scene.units import Length
 
@@ -144,6 +145,9 @@ class FileContent:
 
 @lru_cache(maxsize=8)
 def _read(path: str, _stamp: int) -> FileContent:
+    reason = why_not(path)
+    if reason is not None:
+        raise ValueError(reason)
     # the geometry kernel takes a while to load, and most scenes need none here
     from netgen.occ import Glue, OCCGeometry
 
