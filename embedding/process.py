@@ -7,10 +7,12 @@ What is imported stays, and what is left at the end goes with the process.
 from __future__ import annotations
 
 import gc
+import os
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-_own = False
+_own = _abandoned = False
 
 
 def begin() -> None:
@@ -34,6 +36,16 @@ def loading() -> Iterator[None]:
         gc.enable()
 
 
-def leave() -> None:
-    """This process ends: nothing of it need be taken apart."""
+def abandon() -> None:
+    """A library was stopped half way and would stumble at the end of the process: then it is ended at once."""
+    global _abandoned
+    _abandoned = True
+
+
+def leave(code: int) -> None:
+    """This process ends with ``code``: nothing of it need be taken apart."""
     gc.freeze()
+    if _abandoned:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)

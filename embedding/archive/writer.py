@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import h5py
 import numpy as np
@@ -37,7 +37,9 @@ from embedding.archive.file import check_target, reading
 from embedding.archive.lagrange import LagrangeBlock
 from embedding.archive.memory import packed
 from embedding.archive.repair import rewrite
+from embedding.archive.room import require_room
 from embedding.errors import ArchiveError
+from embedding.process import abandon
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -120,13 +122,14 @@ class ArchiveWriter:
         if self.committed and self._remeshed:
             self._append_on_new_meshes(record, fields, memory)
             return
+        more = _size(fields, memory)
         if self.committed:
-            with self._open(self.path, "r+") as file:
+            with self._open(self.path, "r+", more) as file:
                 self._step(file, record, fields, memory)
             self.committed += 1
             return
         self._remeshed = False
-        with self._open(self._partial, "w") as file:
+        with self._open(self._partial, "w", more + _size_of(self.blocks)) as file:
             self._create(file)
             layout.create_scalars(file["embedding"], list(_scalars(record)), self.per_length)
             layout.create_checkpoint(file["embedding"], len(packed(memory)[1]))
@@ -145,8 +148,9 @@ class ArchiveWriter:
         self, record: StepRecord, fields: Sequence[SampledField], memory: Mapping[str, Any]
     ) -> None:
         """Commit a step that changes what there is in the file, in a copy that takes its place."""
+        more = _size(fields, memory) + _size_of(self.blocks)
         self._copy()
-        with self._open(self._partial, "r+") as file:
+        with self._open(self._partial, "r+", more) as file:
             own, steps = file["embedding"], self.committed
             if damaged_rows(own, steps):
                 raise ArchiveError(f"{self.path}: the archive has been damaged on the disk; see embedding verify")
@@ -170,16 +174,17 @@ class ArchiveWriter:
         try:
             shutil.copyfile(self.path, self._partial)
         except OSError as error:
+            self._partial.unlink(missing_ok=True)
             raise ArchiveError(f"{self.path}: cannot copy the archive for a new mesh: {error}") from error
 
     def finish(self, summary: Mapping[str, Any]) -> None:
         """Add how the run ended; ``summary`` is plain data for JSON."""
         data = np.frombuffer(json.dumps(summary, default=_plain).encode(), "u1")
         if self.committed:
-            with self._open(self.path, "r+") as file:
+            with self._open(self.path, "r+", len(data)) as file:
                 self._end(file, data)
             return
-        with self._open(self._partial, "w") as file:
+        with self._open(self._partial, "w", len(data) + _size_of(self.blocks)) as file:
             self._create(file)
             file["embedding/digest"][...] = record_digest(file)
             self._end(file, data)
@@ -268,17 +273,30 @@ class ArchiveWriter:
         return dataset
 
     @contextmanager
-    def _open(self, path: Path, mode: str) -> Iterator[Any]:
-        """The file, open for one commit. Locks are not asked for: a viewer that holds the file must not end
-        the run."""
+    def _open(self, path: Path, mode: str, more: int) -> Iterator[Any]:
+        """The file, open for one commit of so many bytes ``more``. Locks are not asked for: a viewer that holds the
+        file must not end the run."""
+        try:
+            require_room(path, more)
+        except OSError as error:
+            self._fail(path, error)
         try:
             with h5py.File(path, mode, libver=layout.LIBVER, locking=False) as file:
                 if mode == "r+" and ("embedding" not in file or noted(file["embedding"], "run") != self._run):
                     raise ArchiveError(f"{path}: another run has replaced the archive of this one")
                 yield file
         except (OSError, RuntimeError) as error:
-            kept = f"; the {self.committed} steps committed before are kept" if self.committed else ""
-            raise ArchiveError(f"{path}: cannot write the archive: {error}{kept}") from error
+            abandon()  # HDF5 would try to write again at the end of the process, and die of it
+            self._fail(path, error)
+
+    def _fail(self, path: Path, error: Exception) -> NoReturn:
+        """Raise the ArchiveError of a commit that failed; what was begun is removed."""
+        if path == self._partial:
+            path.unlink(missing_ok=True)
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        kept = f"; the {self.committed} steps committed before are kept" if self.committed else ""
+        hint = f". When that is mended, go on with: embedding resume {self.path}" if self.committed else ""
+        raise ArchiveError(f"{self.path}: cannot write the archive: {reason}{kept}{hint}") from error
 
     def _place(self, path: Path, blocks: list[str]) -> None:
         """Move the partial file to its final name and write the view files of its blocks."""
@@ -288,13 +306,24 @@ class ArchiveWriter:
             self.path = path
             views.write_views(path, blocks)
         except OSError as error:
-            raise ArchiveError(f"{path}: cannot write the archive: {error}") from error
+            self._partial.unlink(missing_ok=True)
+            self._fail(path, error)
 
 
 def _synchronise(file: Any) -> None:
     """Bring everything written so far to the disk, before anything is written that relies on it."""
     file.flush()
     layout.to_disk(file.filename)
+
+
+def _size(fields: Sequence[SampledField], memory: Mapping[str, Any]) -> int:
+    """Bytes that a step takes at most, but for its tables."""
+    return sum(2 * 4 * field.values.size for field in fields) + 2 * packed(memory)[1].nbytes
+
+
+def _size_of(blocks: Mapping[str, LagrangeBlock]) -> int:
+    """Bytes of meshes, at most."""
+    return sum(2 * 8 * (block.points.size + block.cells.size) for block in blocks.values())
 
 
 def _scalars(record: StepRecord) -> dict[str, float]:

@@ -1,6 +1,6 @@
 """The process that is measured: ``python -m embedding.bench.worker SCENE ARCHIVE REPORT BEGUN [OVERRIDE ...]``.
 
-``BEGUN`` is when it was started, in seconds as of ``time.time``; the ``REPORT`` is JSON.
+``BEGUN`` is when it was started, in seconds as of ``time.monotonic``; the ``REPORT`` is JSON.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ def main(scene: str, archive: str, report: str, begun: str, *overrides: str) -> 
     from embedding.errors import EmbeddingError
 
     begin()
-    watch = Watch(time.time)
-    watch.seconds["start of Python",] = time.time() - float(begun)
+    watch = Watch(time.monotonic)
+    watch.seconds["start of Python",] = time.monotonic() - float(begun)
     try:
         told = measured(scene, archive, overrides, watch)
     except EmbeddingError as error:
@@ -58,7 +58,7 @@ def main(scene: str, archive: str, report: str, begun: str, *overrides: str) -> 
     watch.charge()
     parts = [[list(names), seconds, watch.calls.get(names, 0)] for names, seconds in watch.seconds.items()]
     Path(report).write_text(json.dumps({**told, "parts": parts}))
-    leave()
+    leave(0)
     return 0
 
 

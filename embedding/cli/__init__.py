@@ -19,5 +19,5 @@ def main(arguments: Sequence[str] | None = None) -> int:
         from embedding.cli.door import enter
     code = enter(list(sys.argv[1:] if arguments is None else arguments))
     if arguments is None:
-        leave()
+        leave(code)
     return code
