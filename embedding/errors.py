@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import Any, ClassVar, NamedTuple
 
 
@@ -74,3 +75,30 @@ class SolveError(EmbeddingError):
 
     def __str__(self) -> str:
         return str(self.args[0])
+
+
+SHORT_OF_MEMORY = ("allocat", "out of memory", "not enough memory", "failed to map segment")
+"""In the messages of ngsolve, netgen, HDF5 and the system where memory is what is missing."""
+
+
+def out_of_memory(error: BaseException) -> bool:
+    """Does ``error``, or what it comes from, say that memory is short?"""
+    found: BaseException | None = error
+    while found is not None:
+        if isinstance(found, MemoryError) or any(word in str(found).lower() for word in SHORT_OF_MEMORY):
+            return True
+        found = found.__cause__ or found.__context__
+    return False
+
+
+@contextmanager
+def memory_errors() -> Iterator[None]:
+    """Whatever says within that memory is short is a MemoryError."""
+    try:
+        yield
+    except EmbeddingError:
+        raise
+    except Exception as error:
+        if isinstance(error, MemoryError) or not out_of_memory(error):
+            raise
+        raise MemoryError(" ".join(str(error).split())) from error

@@ -10,7 +10,7 @@ from cyclopts import CycloptsError
 
 from embedding.cli.commands import app
 from embedding.cli.output import print_json
-from embedding.errors import DamageError, EmbeddingError, SceneError, SolveError
+from embedding.errors import DamageError, EmbeddingError, SceneError, SolveError, out_of_memory
 
 BAD_INPUT, NO_MEMORY, INTERRUPTED, DEFECT = 2, 3, 130, 1
 DEBUG = "EMBEDDING_DEBUG"
@@ -42,12 +42,12 @@ def enter(arguments: list[str]) -> int:
         # The reader of our output has gone (`embedding info ... | head`); what it wanted, it has.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
-    except MemoryError as error:
-        message = f"there is not enough memory for this: {error}".removesuffix(": ")
-        return _leave(NO_MEMORY, {"kind": "memory", "message": message}, as_json)
     except OSError as error:
         return _leave(BAD_INPUT, {"kind": "file", "message": str(error)}, as_json)
     except Exception as error:
+        if out_of_memory(error):
+            message = f"there is not enough memory for this: {error}".removesuffix(": ")
+            return _leave(NO_MEMORY, {"kind": "memory", "message": message}, as_json)
         if os.environ.get(DEBUG):
             raise
         message = (

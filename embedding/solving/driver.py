@@ -11,7 +11,7 @@ import numpy as np
 from ngsolve import SetNumThreads, TaskManager
 
 from embedding.errors import Problem as SceneProblem
-from embedding.errors import SceneError
+from embedding.errors import SceneError, memory_errors, out_of_memory
 from embedding.scene import Scene, Stage
 from embedding.scene.messages import nearest
 from embedding.solving.arc import ArcStage
@@ -41,7 +41,7 @@ def run(scene: Scene, listeners: Sequence[Listener] = (), kept: Kept | None = No
         OtherMeshError: the meshes that the earlier run was on do not come out the same again.
     """
     SetNumThreads(scene.solver.threads)
-    with TaskManager():
+    with TaskManager(), memory_errors():
         return Run(scene, listeners, kept).solve()
 
 
@@ -74,6 +74,10 @@ class Run(Session):
                     errors, health = estimates.errors, check_health(self.problem, estimates, self.steps)
         except KeyboardInterrupt:
             result, errors = Result.INTERRUPTED, {}
+        except Exception as error:
+            if not out_of_memory(error):
+                raise
+            result, errors = Result.OUT_OF_MEMORY, {}
         message = result.advice if result.ok else self.told(result)
         error = self._worst(errors)
         answers = self._asked or ((error.quantity,) if error is not None else ())

@@ -15,6 +15,7 @@ from typing import Any
 
 from ngsolve import SetNumThreads, TaskManager
 
+from embedding.errors import memory_errors
 from embedding.scene import Scene
 from embedding.solving.arc import ArcStage
 from embedding.solving.continuation import at_parameter
@@ -52,7 +53,7 @@ def run_from(scene: Scene, neighbour: Neighbour, listeners: Sequence[Listener] =
         SceneError: the scene cannot be modelled.
     """
     SetNumThreads(scene.solver.threads)
-    with TaskManager():
+    with TaskManager(), memory_errors():
         session = Continued(scene, listeners)
         reason = session.unfit(neighbour) or session.enter(neighbour)
         if not reason:

@@ -69,6 +69,10 @@ class Result(Enum):
         "the accuracy asked for was not reached with the unknowns allowed. "
         "Ask for less (accuracy.relative), or allow more (accuracy.max_unknowns)"
     )
+    OUT_OF_MEMORY = (
+        "there is not enough memory. Coarsen the mesh, lower its order, let the scene reduce itself further "
+        '(model.reduction = "auto", model.symmetry = "auto"), or run it where there is more'
+    )
     INTERRUPTED = "interrupted; every accepted step is kept"
 
     @property

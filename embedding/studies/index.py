@@ -7,6 +7,7 @@ a kill, and SQLite's locks are not to be trusted on the network folders of a clu
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import sys
@@ -79,9 +80,13 @@ class Index:
         """Add the record of a case; it is on the disk when this returns."""
         record = without_nan(record)
         line = json.dumps(record, allow_nan=False).encode() + b"\n"
-        if os.write(self._file, line) != len(line):
-            raise StudyError(f"{self.path}: cannot be written: the disk is full")
-        os.fsync(self._file)
+        try:
+            if os.write(self._file, line) != len(line):
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            os.fsync(self._file)
+        except OSError as error:
+            advice = "cases that are done are not solved again when the study is run again"
+            raise StudyError(f"{self.path}: cannot be written: {error.strerror}; {advice}") from error
         self.records[record["case"]] = record
 
     def _lock(self) -> None:
