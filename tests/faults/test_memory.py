@@ -14,7 +14,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from netgen.occ import ResetGlobalShapeProperties
+
 from embedding import Listener, Scene, load_scene, solve
+from embedding.geometry.domain import build
+from embedding.plan import explain
 from embedding.solving.events import StepRecord
 from embedding.solving.state import State
 from tests.balloons import SMALLEST
@@ -29,13 +33,13 @@ PER_STEP = 16e3
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform != "linux", reason="asks glibc")]
 
 
+FIELDS = ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks", "fordblks", "keepcost")
+
+
 class _Info(ctypes.Structure):
     """``struct mallinfo2`` of glibc."""
 
-    _fields_ = [
-        (name, ctypes.c_size_t)
-        for name in ["arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks", "fordblks", "keepcost"]
-    ]
+    _fields_ = [(name, ctypes.c_size_t) for name in FIELDS]
 
 
 def in_use() -> int:
@@ -62,6 +66,18 @@ def test_solves(tmp_path: Path) -> None:
         used.append(in_use())
     print(f"{growth(used):.0f} bytes per solve, {used[-1] / 1e6:.1f} MB in use")
     assert growth(used) < PER_SOLVE
+
+
+def test_meshes() -> None:
+    """Netgen keeps the names of every shape that was ever meshed, some 20 kB each, until it is told to forget them."""
+    scene = load_scene(SCENE, SETS)
+    plan, used = explain(scene), []
+    for _ in range(100):
+        build(scene.shell.shape, plan.reduction, plan.sizes)
+        ResetGlobalShapeProperties()
+        used.append(in_use())
+    print(f"{growth(used):.0f} bytes per mesh")
+    assert growth(used) < 2e3
 
 
 class Used(Listener):
