@@ -353,6 +353,11 @@ class ArchivedBlock:
             raise ValueError(f"{self.name} has no mesh of points and Lagrange cells")
         if self.cells.size and not 0 <= self.cells.min() <= self.cells.max() < points:
             raise ValueError(f"cells of {self.name} have points that there are not")
+        corners = self.cells[:, : dimension + 1]
+        if any((corners[:, a] == corners[:, b]).any() for a in range(dimension + 1) for b in range(a)):
+            raise ValueError(f"cells of {self.name} have one corner twice")
+        if not np.isfinite(self.points).all():
+            raise ValueError(f"points of {self.name} are nowhere")
 
     @property
     def fields(self) -> tuple[str, ...]:

@@ -33,7 +33,7 @@ def refuse_what_cannot_be_meshed(scene: Scene, sizes: MeshSizes, dimension: int)
 def _shape(scene: Scene) -> Iterator[Problem]:
     shape = scene.shell.shape
     columns = zip(*shape.sample_points(), strict=True)
-    longest = max(max(column) - min(column) for column in columns)
+    longest = max((max(column) - min(column) for column in columns), default=0.0)
     if shape.narrowest < SMALLEST * max(shape.size, longest):
         reason = f"{shape.narrowest:.3g} m across where it is narrowest, and {max(shape.size, longest):.3g} m long"
         yield Problem("shell.shape", f"not allowed: {reason}; the ratio must be at least {SMALLEST:g}")

@@ -74,8 +74,8 @@ class Run(Session):
                     errors, health = estimates.errors, check_health(self.problem, estimates, self.steps)
         except KeyboardInterrupt:
             result, errors = Result.INTERRUPTED, {}
-        except Exception as error:
-            if not out_of_memory(error):
+        except Exception as failure:
+            if not out_of_memory(failure):
                 raise
             result, errors = Result.OUT_OF_MEMORY, {}
         message = result.advice if result.ok else self.told(result)

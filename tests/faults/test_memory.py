@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
 from netgen.occ import ResetGlobalShapeProperties
 
 from embedding import Listener, Scene, load_scene, solve
