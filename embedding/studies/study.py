@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Tag, model_validator
 
 from embedding.scene import Scene
-from embedding.scene.messages import refusal
+from embedding.scene.messages import printable, refusal
 from embedding.scene.options import Fixed
 from embedding.scene.part import Part, kind_under
 from embedding.scene.texts import Name
@@ -138,7 +138,8 @@ class Study(Part):
         if design.along is None:
             return
         if design.along not in self.parameters:
-            raise refusal(f"{design.along} is no parameter of the study", field="design.along", value=design.along)
+            reason = f"{printable(design.along)} is no parameter of the study"
+            raise refusal(reason, field="design.along", value=design.along)
         for name, quantity in self.wanted.items():
             if quantity.place not in ("end", "last"):
                 reason = 'a case that starts from its neighbour has an end and no path: ask for it "at end"'
@@ -150,12 +151,14 @@ class Study(Part):
         for group in design.together:
             for path in group:
                 if path not in self.parameters:
-                    raise refusal(f"{path} is no parameter of the study", field="design.together", value=group)
+                    reason = f"{printable(path)} is no parameter of the study"
+                    raise refusal(reason, field="design.together", value=group)
                 if path in met:
-                    raise refusal(f"{path} is named twice", field="design.together", value=group)
+                    raise refusal(f"{printable(path)} is named twice", field="design.together", value=group)
                 met.add(path)
                 if len(self.parameters[path]) != len(self.parameters[group[0]]):
-                    counts = f"{len(self.parameters[path])} values, and {len(self.parameters[group[0]])} of {group[0]}"
+                    first = len(self.parameters[group[0]])
+                    counts = f"{len(self.parameters[path])} values, and {first} of {printable(group[0])}"
                     reason = f"there are {counts}; what goes together needs as many"
                     raise refusal(reason, field=f"parameters.{path}", value=self.parameters[path])
 

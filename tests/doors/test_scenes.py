@@ -29,8 +29,8 @@ FILES = sorted((ROOT / "problems").glob("*.toml"))
 TEXTS = [file.read_text() for file in FILES]
 TABLES = [tomllib.loads(one) for one in TEXTS]
 OF_THE_FILE = (
-    "not valid TOML: ", "not UTF-8 text: ", "not a scene: ", "tables and lists may lie at most ", "there is no such file",
-    "this is a directory", "cannot be read: ",
+    "not valid TOML: ", "not UTF-8 text: ", "not a scene: ", "tables and lists may lie at most ",
+    "there is no such file", "this is a directory", "cannot be read: ",
 )  # fmt: skip
 """How a problem begins that is one of the file as a whole."""
 

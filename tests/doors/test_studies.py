@@ -25,7 +25,7 @@ FEW = 60
 """Of so many cases the scenes are made, too."""
 
 
-@pytest.mark.parametrize("first, count", [(0, 60), pytest.param(1000, 2000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("first, count", [(0, 60), pytest.param(1000, 1000, marks=pytest.mark.slow)])
 def test_study_files(first: int, count: int, tmp_path: Path) -> None:
     outcomes: Counter[str] = Counter()
     file = tmp_path / "eine Studie.toml"
