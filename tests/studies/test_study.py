@@ -170,7 +170,7 @@ WRONG = {
     'must be a time greater than 0, such as "10 min"',
     'design.kind = "gird"': 'map.toml: design.kind: "gird" is not allowed: '
     'must be "grid", "rows" or "latin-hypercube"; did you mean "grid"?',
-    'design.kind = "latin-hypercube"': "map.toml: design.samples: missing: must be a whole number of at least 1 and at most 1e+06",
+    'design.kind = "latin-hypercube"': "map.toml: design.samples: missing: must be a whole number of at least 1 and at most 100000",
     'design = { kind = "rows" }': "map.toml: parameters.loads.pressure_bottom: [1 kPa, 500, 2e3 Pa] is not allowed: "
     "there are 3 values, and 2 of the first parameter; rows need as many",
     'design = { kind = "grid", together = [["shell.thickness", "shell.thicknes"]] }': "map.toml: design.together: "
