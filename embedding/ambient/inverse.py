@@ -11,6 +11,7 @@ from ngsolve import BaseMatrix, InnerProduct
 from embedding.ambient.krylov import conjugate_gradients
 from embedding.ambient.patches import Cycle, VertexPatches
 from embedding.geometry.spaces import as_mask
+from embedding.threads import factored
 
 Linear = Literal["auto", "direct", "iterative"]
 LARGE = {2: 1_000_000, 3: 25_000}
@@ -35,7 +36,7 @@ class Inverter:
     def __call__(self, matrix: Any) -> Any:
         """The inverse of ``matrix``, zero on the unknowns that are not free."""
         if self._patches is None:
-            return matrix.Inverse(self._free, inverse="sparsecholesky")
+            return factored(matrix, self._free)
         return _Iteration(self._patches.cycle(matrix), self._tolerance)
 
 

@@ -35,6 +35,7 @@ from embedding.ambient.inverse import Inverter, Linear, norm
 from embedding.ambient.stiffening import StiffeningForm
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits, plane_mask, scalar_mask
+from embedding.threads import energy_of
 
 Array = npt.NDArray[np.float64]
 INTERIOR_ORDER = 2
@@ -255,7 +256,7 @@ class AmbientMotion:
 
     def _energy(self) -> float:
         with self._domain.in_ambient():  # NGSolve's energies know only of the mesh's own deformation
-            return float(self._form.Energy(self.w.vec))
+            return energy_of(self._form, self.w.vec)
 
     def _preconditioned_residual(self) -> tuple[Any, float]:
         residual, step = self.w.vec.CreateVector(), self.w.vec.CreateVector()

@@ -18,6 +18,7 @@ import numpy as np
 from ngsolve import CELL, EDGE, FACE, VERTEX, NodeId, Projector
 
 from embedding.geometry.spaces import Mask, as_bits
+from embedding.threads import factored
 
 
 class VertexPatches:
@@ -52,7 +53,7 @@ class VertexPatches:
     def cycle(self, matrix: Any) -> Cycle:
         """The preconditioner for ``matrix``, which must be definite on the free unknowns."""
         smoother = matrix.CreateBlockSmoother(self._blocks)
-        at_once = matrix.Inverse(self._bits_at_once, inverse="sparsecholesky")
+        at_once = factored(matrix, self._bits_at_once)
         return Cycle(matrix, smoother, at_once, Projector(self._bits, True))
 
 

@@ -14,6 +14,7 @@ from ngsolve import BilinearForm, FESpace, GridFunction, Variation
 
 from embedding.coupling.lagrangian import Lagrangian
 from embedding.coupling.room import RoomyForm
+from embedding.threads import energy_of
 
 
 class Distant:
@@ -58,4 +59,4 @@ class Distant:
 
     def energy(self, potential: Any) -> float:
         """The co-energy of a ``potential``, a vector of the space."""
-        return float(self._form.Energy(potential))
+        return energy_of(self._form, potential)

@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from embedding.errors import EmbeddingError
 from embedding.geometry.spaces import Mask, as_bits, as_mask
+from embedding.threads import factored
 from embedding.timing import part
 
 if TYPE_CHECKING:
@@ -176,7 +177,7 @@ class DirectSolver(LinearSolver):
                 try:
                     if method != self._method:
                         with part("factorisation"):
-                            self._inverse = self._form.mat.Inverse(self.free, inverse=method)
+                            self._inverse = factored(self._form.mat, self.free, method)
                         self._method = method
                 except Exception as error:  # NGSolve raises its own untyped exceptions for singular matrices
                     worst = f"{method}: {error}"

@@ -10,6 +10,7 @@ from ngsolve import BilinearForm, FESpace, GridFunction, Variation
 
 from embedding.coupling.distant import Distant
 from embedding.coupling.lagrangian import Lagrangian
+from embedding.threads import energy_of
 
 MOVING = ("u", "y_t", "y_b", "o_t", "o_b", "axial")
 """Unknowns that the matrix of the potential depends on, besides the ambient's interior."""
@@ -81,4 +82,4 @@ class PotentialForm:
 
     def energy(self, vector: Any) -> float:
         """The co-energy at a ``vector`` of the space."""
-        return float(self._form.Energy(vector)) + (0.0 if self._distant is None else self._distant.energy(vector))
+        return energy_of(self._form, vector) + (0.0 if self._distant is None else self._distant.energy(vector))

@@ -22,6 +22,7 @@ from embedding.coupling.lagrangian import Lagrangian
 from embedding.coupling.unknowns import SIDES
 from embedding.geometry.spaces import TraceSpace, as_bits
 from embedding.shell.kinematics import Kinematics
+from embedding.threads import factored
 
 SIGN = {"t": 1.0, "b": -1.0}
 
@@ -94,7 +95,7 @@ class NodalForces:
         mass += domain.reduction.measure * InnerProduct(trial.Trace(), test.Trace()) * domain.surface()
         mass.Assemble()
         self._mass = mass
-        self._inverse = mass.mat.Inverse(as_bits(unknowns.face_free), inverse="sparsecholesky")
+        self._inverse = factored(mass.mat, as_bits(unknowns.face_free))
         self._displacement = unknowns.field("u")
 
     def recover(self, tau: GridFunction) -> None:
@@ -130,7 +131,7 @@ class FaceFlux:
         trial, test = trace.space.TnT()
         mass += domain.reduction.measure * trial.Trace() * test.Trace() * domain.potential_surface()
         mass.Assemble()
-        self._inverse = mass.mat.Inverse(as_bits(trace.free), inverse="sparsecholesky")
+        self._inverse = factored(mass.mat, as_bits(trace.free))
 
     def refresh(self) -> None:
         """Bring ``flux`` up to date with the state."""

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from ngsolve import SetNumThreads, TaskManager
 
 from embedding.errors import Problem as SceneProblem
 from embedding.errors import SceneError, memory_errors, out_of_memory
@@ -28,6 +27,7 @@ from embedding.solving.ramp import Ramp
 from embedding.solving.result import Result
 from embedding.solving.session import Session
 from embedding.solving.solution import Check, Cost, ErrorEstimate, Solution
+from embedding.threads import parallel
 from embedding.timing import part
 
 
@@ -40,8 +40,7 @@ def run(scene: Scene, listeners: Sequence[Listener] = (), kept: Kept | None = No
         SceneError: the scene cannot be modelled.
         OtherMeshError: the meshes that the earlier run was on do not come out the same again.
     """
-    SetNumThreads(scene.solver.threads)
-    with TaskManager(), memory_errors():
+    with parallel(scene.solver.threads), memory_errors():
         return Run(scene, listeners, kept).solve()
 
 

@@ -13,8 +13,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ngsolve import SetNumThreads, TaskManager
-
 from embedding.errors import memory_errors
 from embedding.scene import Scene
 from embedding.solving.arc import ArcStage
@@ -28,6 +26,7 @@ from embedding.solving.ramp import Ramp
 from embedding.solving.result import Result
 from embedding.solving.solution import Solution
 from embedding.solving.stability import unstable_modes
+from embedding.threads import parallel
 
 NEIGHBOUR = "neighbour"
 SAME = 1e-12
@@ -52,8 +51,7 @@ def run_from(scene: Scene, neighbour: Neighbour, listeners: Sequence[Listener] =
     Raises:
         SceneError: the scene cannot be modelled.
     """
-    SetNumThreads(scene.solver.threads)
-    with TaskManager(), memory_errors():
+    with parallel(scene.solver.threads), memory_errors():
         session = Continued(scene, listeners)
         reason = session.unfit(neighbour) or session.enter(neighbour)
         if not reason:

@@ -25,6 +25,7 @@ from embedding.coupling.physics import Physics
 from embedding.coupling.system import System
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits
+from embedding.threads import factored
 
 Array = npt.NDArray[np.float64]
 
@@ -57,7 +58,7 @@ class FieldPart:
         mass += measure * InnerProduct(trial.Trace(), test.Trace()) * joint.domain.surface()
         mass.Assemble()
         self._mass = mass
-        self._inverse = mass.mat.Inverse(as_bits(unknowns.face_free), inverse="sparsecholesky")
+        self._inverse = factored(mass.mat, as_bits(unknowns.face_free))
 
     def follow(self) -> bool:
         """Place the faces and the ambient around the shell; False if elements of the ambient would turn over."""
