@@ -13,23 +13,23 @@ from typing import Any
 
 from ngsolve import BaseMatrix, SetNumThreads, TaskManager
 
-_count = 1
+_asked, _count = 1, 1
 _manager: Any = None
 
 
 @contextmanager
 def parallel(count: int) -> Iterator[None]:
     """Within, NGSolve works with ``count`` threads."""
-    global _count, _manager
-    before = _count, _manager
+    global _asked, _count, _manager
+    before = _asked, _count, _manager
     SetNumThreads(count)
     manager = TaskManager()
     with manager:
-        _count, _manager = count, manager
+        _asked, _count, _manager = count, count, manager
         try:
             yield
         finally:
-            _count, _manager = before
+            _asked, _count, _manager = before
 
 
 @contextmanager
@@ -58,7 +58,7 @@ def factored(matrix: Any, free: Any, method: str = "sparsecholesky") -> Any:
     """
     with alone():
         inverse = matrix.Inverse(free, inverse=method)
-    return inverse if _count == 1 else _Alone(inverse)
+    return inverse if _asked == 1 else _Alone(inverse)
 
 
 def energy_of(form: Any, vector: Any) -> float:
