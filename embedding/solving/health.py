@@ -79,12 +79,32 @@ def of_bending(problem: Problem) -> Iterator[Check]:
     share = domain.shell_integral(IfPos(state.min_principal_stress, 0.0, 1.0)) / domain.shell_integral(1.0)
     told = "part of the area in compression, which bending stiffness carries: finer waves than elements are not seen"
     yield Check("compression", share, "", "", True, told)
-    if domain.is_flat or not math.isfinite(domain.curvature_radius) or not domain.rims:
+    if not domain.rims:
         return
-    layer = math.sqrt(domain.curvature_radius * problem.scene.shell.thickest / problem.scales.length)
     size = max(domain.sizes.along(edge) for edge in domain.rims) / domain.sizes.order
-    told = "element along edges, over its order, against the bending layer sqrt(R T)"
-    yield Check("bending layer", size / layer, "", "<= 1", size <= layer, told)
+    if not domain.is_flat and math.isfinite(domain.curvature_radius):
+        layer = math.sqrt(domain.curvature_radius * problem.scene.shell.thickest / problem.scales.length)
+        told = "element along edges, over its order, against the bending layer sqrt(R T)"
+        yield Check("bending layer", size / layer, "", "<= 1", size <= layer, told)
+    turned = magnetic_layer(problem)
+    if math.isfinite(turned):
+        told = "element along edges, over its order, against the layer T (mu / (3 B_r H))^1/2 where a magnet turns"
+        yield Check("magnetic layer", size / turned, "", "<= 1", size <= turned, told)
+
+
+def magnetic_layer(problem: Problem) -> float:
+    """Over the size of the shape: the length in which a held hard-magnetic shell turns into the applied field, root of
+    its bending stiffness mu T^3 / 3 (incompressible, width held) over the moment T B_r H an area; inf without both.
+
+    The elastica of such a strip, t'' = a sin(t - angle), has the layer L / a^(1/2) (Zhao et al., J. Mech. Phys. Solids
+    124 (2019) 244).
+    """
+    scene, scales = problem.scene, problem.scales
+    remanence = scene.shell.constant_vectors.get("remanence")
+    if remanence is None or not any(remanence) or not any(scene.ambient.uniform_field):
+        return math.inf
+    moment = math.hypot(*remanence) * math.hypot(*scene.ambient.uniform_field)
+    return scene.shell.thickest / scales.length * math.sqrt(scales.stress / (3.0 * moment))
 
 
 def quality(problem: Problem) -> float:
