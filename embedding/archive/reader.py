@@ -365,7 +365,7 @@ class ArchivedBlock:
         return tuple(self.units)
 
     def field(self, name: str, step: int | None = None) -> npt.NDArray[np.float32]:
-        """Values of a field at the nodes, (n,), (n, 3) or (n, 9) by rows of a tensor, in its SI unit (``units``), at
+        """Values of a field at the nodes, (n,), (n, 3), (n, 4) or (n, 9) by rows of a tensor, in its SI unit (``units``), at
         the block's own step or another one.
 
         Raises ArchiveError if there is no such field or step, listing what there is, or if the step has another mesh.
@@ -383,6 +383,6 @@ class ArchivedBlock:
                 )
             begin, dataset = int(file["embedding/vtk"][table("Row", self.name)][number]), group["PointData"][name]
             values = dataset[begin : begin + len(self.points)]
-            if len(values) != len(self.points) or values.shape[1:] not in ((), (3,), (9,)):
+            if len(values) != len(self.points) or values.ndim > 2 or values.size > 9 * len(values):
                 raise ValueError(f"{name} of {self.name} is no field on its mesh")
             return cast(npt.NDArray[np.float32], values)

@@ -60,14 +60,14 @@ def test_the_whole_tangent() -> None:
     rows = system.unknowns.state.vec.CreateVector()
     rows.FV().NumPy()[:] = mask * np.random.default_rng(1).standard_normal(len(mask))
     direction, here = numbers(system.solve(rows)), state.copy()
-    direction *= 1e-2 / np.abs(direction).max()
+    direction *= 1e-2 / np.abs(direction[system.unknowns.range("u")]).max()
     along = rows.CreateVector()
     along.FV().NumPy()[:] = direction
     rows.data = system.form.mat * along
     matrix = mask * numbers(rows)
     rest = mask * following.derivative(direction)
     errors = []
-    for step in (0.02, 0.01):
+    for step in (0.1, 0.05):
         sides = []
         for sign in (1.0, -1.0):
             state[:] = here + sign * step * direction

@@ -76,21 +76,28 @@ PLANTED: dict[Result, dict[str, Any]] = {
         1e-7, {"edge_tractions": [{"edge": "x1", "traction": [0.0, 4 / 3 * MU * 1e-7**3, 0.0]}]}, min_step=0.1
     ),
     Result.SHARPLY_BENT: bent(0.2, {"edge_moments": [{"edge": "x1", "moment": 0.2 * MU * 0.2**2}]}, max_arc=1.0),
-    Result.INTERRUPTED: inflated(0.5),
+    Result.INTERRUPTED: inflated(0.5), Result.OUT_OF_MEMORY: inflated(0.5),
 }  # fmt: skip
 
 
-class Impatient(Listener):
-    """Presses Ctrl-C in the second step."""
+RAISED = {Result.INTERRUPTED: KeyboardInterrupt, Result.OUT_OF_MEMORY: MemoryError}
+"""Those that come from outside; tests/faults has memory that is truly short, and true signals."""
+
+
+class Disturbing(Listener):
+    """Raises in the second step."""
+
+    def __init__(self, error: type[BaseException]) -> None:
+        self.error = error
 
     def iterated(self, step_number: int, target: dict[str, float], iteration: Any) -> None:
-        """Raise as the signal would."""
+        """Raise as the signal, or an allocation, would."""
         if step_number == 2:
-            raise KeyboardInterrupt
+            raise self.error
 
 
 def ended(reason: Result) -> Solution:
-    listeners = [Impatient()] if reason is Result.INTERRUPTED else []
+    listeners = [Disturbing(RAISED[reason])] if reason in RAISED else []
     return solve(Scene.from_table(PLANTED[reason]), throw=False, listeners=listeners)
 
 

@@ -30,14 +30,16 @@ def shell(**discretisation: Any) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("table", "field"),
     [
-        (shell(shell_size=1e-6), "shell_size"),
-        (shell(shell_size=0.2, edge_size={"x0": 1e-12}), "edge_size"),
-        (conductor(SPHERE, {}, discretisation={"shell_size": 1e-10}), "shell_size"),
-        (conductor(SPHERE, {}, discretisation={"ambient_size": 1e-6}), "ambient_size"),
-        (conductor(SPHERE, {}, discretisation={"ambient_size": 1e-4}, model={"reduction": "3d"}), "ambient_size"),
+        (shell(shell_size=1e-3), "shell_size"),
+        (shell(shell_size=0.2, edge_size={"x0": 1e-5}), "edge_size"),
+        (conductor(SPHERE, {}, discretisation={"shell_size": 1e-5}), "shell_size"),
+        (conductor(SPHERE, {}, discretisation={"ambient_size": 2e-3}), "ambient_size"),
+        (conductor(SPHERE, {}, discretisation={"ambient_size": 0.02}, model={"reduction": "3d"}), "ambient_size"),
     ],
 )
-def test_too_large(table: dict[str, Any], field: str) -> None:
+def test_too_large(table: dict[str, Any], field: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With memory of 10 MB; what is out of all proportion is refused before (tests/doors)."""
+    monkeypatch.setattr(counting, "free_memory", lambda: 1e7)
     with pytest.raises(SceneError, match="unknowns or more; there is memory for") as caught:
         problem_of(table)
     assert [problem.path for problem in caught.value.problems] == [f"discretisation.{field}"]
