@@ -21,7 +21,7 @@ MARK = "<!-- partitioned -->"
 OURS = "3d, between three mirror planes"
 SCRIPT = Path(__file__).parent / "peers" / "ngsolve_balloon.py"
 TRIED = {
-    "whole": ((1, 0.1, 2), (2, 0.3, 2), (2, 0.25, 2), (2, 0.2, 2)),
+    "whole": ((1, 0.1, 2), (2, 0.25, 2), (2, 0.2, 2), (2, 0.17, 2)),
     "octant": ((1, 0.2, 2), (1, 0.1, 2), (2, 0.25, 2), (2, 0.2, 2), (2, 0.15, 2), (2, 0.15, 4)),
 }
 """Order, size on the shell in radii and steps, of scripts of the whole balloon and of an octant."""

@@ -1,53 +1,69 @@
 """Threads, and what must not be shared among them: the same scene with as many threads gives the same bytes.
 
-Assembly and products come out the same with any order of the threads' work. NGSolve's sparse Cholesky does not: it adds
-up in the order in which its parts happen to be done, in the factorisation and in each solve; nor do integrals, energies
-and the colouring of elements. These are done by one thread here.
+Assembly, products and smoothing come out the same with any order of the threads' work, and are ``shared``. NGSolve's
+sparse Cholesky does not: it adds up in the order in which its parts happen to be done, in the factorisation and in each
+solve; nor do integrals, energies and the colouring of elements. All that is done by one thread.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from typing import Any
 
 from ngsolve import BaseMatrix, SetNumThreads, TaskManager
 
-_asked, _count = 1, 1
+_count = 1
 _manager: Any = None
+"""The one at work, where work is shared."""
 
 
 @contextmanager
 def parallel(count: int) -> Iterator[None]:
-    """Within, NGSolve works with ``count`` threads."""
-    global _asked, _count, _manager
-    before = _asked, _count, _manager
-    SetNumThreads(count)
-    manager = TaskManager()
-    with manager:
-        _asked, _count, _manager = count, count, manager
+    """Within, ``count`` threads share what can be shared."""
+    global _count
+    before, _count = _count, count
+    SetNumThreads(1)
+    with TaskManager() if count == 1 else nullcontext():
         try:
             yield
         finally:
-            _asked, _count, _manager = before
+            _count = before
+
+
+@contextmanager
+def shared() -> Iterator[None]:
+    """Within, all threads work."""
+    global _manager
+    if _count == 1 or _manager is not None:
+        yield
+        return
+    SetNumThreads(_count)
+    _manager = TaskManager()
+    try:
+        with _manager:
+            yield
+    finally:
+        _manager = None
+        SetNumThreads(1)
 
 
 @contextmanager
 def alone() -> Iterator[None]:
-    """Within, one thread does all."""
-    global _count
-    if _count == 1:
+    """Within, one thread works, though others share what is around it."""
+    global _manager
+    if _manager is None:
         yield
         return
-    count, _count = _count, 1
-    _manager.__exit__(None, None, None)
+    manager, _manager = _manager, None
+    manager.__exit__(None, None, None)
     SetNumThreads(1)
     try:
         yield
     finally:
-        SetNumThreads(count)
-        _manager.__enter__()
-        _count = count
+        SetNumThreads(_count)
+        manager.__enter__()
+        _manager = manager
 
 
 def factored(matrix: Any, free: Any, method: str = "sparsecholesky") -> Any:
@@ -58,13 +74,7 @@ def factored(matrix: Any, free: Any, method: str = "sparsecholesky") -> Any:
     """
     with alone():
         inverse = matrix.Inverse(free, inverse=method)
-    return inverse if _asked == 1 else _Alone(inverse)
-
-
-def energy_of(form: Any, vector: Any) -> float:
-    """The energy of a variational ``form`` at ``vector``."""
-    with alone():
-        return float(form.Energy(vector))
+    return inverse if _count == 1 else _Alone(inverse)
 
 
 class _Alone(BaseMatrix):  # type: ignore[misc]

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from ngsolve import InnerProduct
 
 from embedding.ambient.patches import Cycle
+from embedding.threads import shared
 
 Array = npt.NDArray[np.float64]
 
@@ -24,6 +25,7 @@ class Ending:
     remainder: float
 
 
+@shared()
 def conjugate_gradients(cycle: Cycle, right_side: Any, out: Any, tolerance: float, most: int) -> Ending:
     """Solve ``cycle.matrix`` out = ``right_side`` for the free unknowns, from zero.
 
@@ -67,6 +69,7 @@ def conjugate_gradients(cycle: Cycle, right_side: Any, out: Any, tolerance: floa
             direction.data += better
 
 
+@shared()
 def gmres(
     image: Callable[[Array], Array], better: Callable[[Array], Array], right_side: Array, tolerance: float, most: int
 ) -> tuple[Array, Ending]:

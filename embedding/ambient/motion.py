@@ -35,7 +35,7 @@ from embedding.ambient.inverse import Inverter, Linear, norm
 from embedding.ambient.stiffening import StiffeningForm
 from embedding.geometry.domain import Domain
 from embedding.geometry.spaces import as_bits, plane_mask, scalar_mask
-from embedding.threads import energy_of
+from embedding.threads import shared
 
 Array = npt.NDArray[np.float64]
 INTERIOR_ORDER = 2
@@ -217,7 +217,8 @@ class AmbientMotion:
         return bool(np.abs(faces - self._assembled_at).max(initial=0.0) < OUTDATED)
 
     def _assemble(self, faces: Array) -> None:
-        self._form.AssembleLinearization(self.w.vec)
+        with shared():
+            self._form.AssembleLinearization(self.w.vec)
         self._inverse = self._inverter(self._form.mat)
         self._assembled_at, self._assembled_with = faces.copy(), np.array(self.w.vec.FV().NumPy())
 
@@ -256,7 +257,7 @@ class AmbientMotion:
 
     def _energy(self) -> float:
         with self._domain.in_ambient():  # NGSolve's energies know only of the mesh's own deformation
-            return energy_of(self._form, self.w.vec)
+            return float(self._form.Energy(self.w.vec))
 
     def _preconditioned_residual(self) -> tuple[Any, float]:
         residual, step = self.w.vec.CreateVector(), self.w.vec.CreateVector()

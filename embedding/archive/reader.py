@@ -365,8 +365,8 @@ class ArchivedBlock:
         return tuple(self.units)
 
     def field(self, name: str, step: int | None = None) -> npt.NDArray[np.float32]:
-        """Values of a field at the nodes, (n,), (n, 3), (n, 4) or (n, 9) by rows of a tensor, in its SI unit (``units``), at
-        the block's own step or another one.
+        """Values of a field at the nodes, (n,), (n, 3), (n, 4) or (n, 9) by rows of a tensor, in its unit (``units``),
+        at the block's own step or another one.
 
         Raises ArchiveError if there is no such field or step, listing what there is, or if the step has another mesh.
         """

@@ -14,7 +14,6 @@ from ngsolve import BilinearForm, FESpace, GridFunction, Variation
 
 from embedding.coupling.lagrangian import Lagrangian
 from embedding.coupling.room import RoomyForm
-from embedding.threads import energy_of
 
 
 class Distant:
@@ -59,4 +58,4 @@ class Distant:
 
     def energy(self, potential: Any) -> float:
         """The co-energy of a ``potential``, a vector of the space."""
-        return energy_of(self._form, potential)
+        return float(self._form.Energy(potential))

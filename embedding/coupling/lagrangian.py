@@ -29,7 +29,6 @@ from embedding.shell.edges import edge_residual
 from embedding.shell.kinematics import Kinematics, surface_gradient
 from embedding.shell.loads import dead_load_energy, enclosed_volume, follower_residual
 from embedding.shell.membrane import Membrane
-from embedding.threads import alone
 
 ANCHOR = 1e-6
 """Stiffness, relative to the shell's, that ties each face to where it is. It changes no residual, only the matrix:
@@ -182,9 +181,7 @@ class Lagrangian:
             return float(self.domain.shell_integral(self._membrane_energy(kinematics)))
         stretching = self.measure * self.membrane.energy(kinematics, kinematics) * self.membrane.integral
         bending = self.unknowns.bending.stored(values, kinematics, self.factors.mechanical)
-        with alone():
-            stretched = float(Integrate(stretching, self.domain.mesh))
-        return stretched + self.domain.shell_integral(bending)
+        return float(Integrate(stretching, self.domain.mesh)) + float(self.domain.shell_integral(bending))
 
     def _membrane_energy(self, kinematics: Kinematics) -> Any:
         return self.physics.thickness * self.physics.law.energy(kinematics)

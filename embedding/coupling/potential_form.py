@@ -10,7 +10,7 @@ from ngsolve import BilinearForm, FESpace, GridFunction, Variation
 
 from embedding.coupling.distant import Distant
 from embedding.coupling.lagrangian import Lagrangian
-from embedding.threads import energy_of
+from embedding.threads import shared
 
 MOVING = ("u", "y_t", "y_b", "o_t", "o_b", "axial")
 """Unknowns that the matrix of the potential depends on, besides the ambient's interior."""
@@ -62,7 +62,8 @@ class PotentialForm:
             return
         size = self.space.ndof
         self._at.vec.FV().NumPy()[:] = state[self._starts : self._starts + size]
-        self._form.AssembleLinearization(self._at.vec)
+        with shared():
+            self._form.AssembleLinearization(self._at.vec)
         if self._distant is not None:
             self._form.mat.AsVector().data += self._distant.matrix().AsVector()
         self._known = present
@@ -82,4 +83,4 @@ class PotentialForm:
 
     def energy(self, vector: Any) -> float:
         """The co-energy at a ``vector`` of the space."""
-        return energy_of(self._form, vector) + (0.0 if self._distant is None else self._distant.energy(vector))
+        return float(self._form.Energy(vector)) + (0.0 if self._distant is None else self._distant.energy(vector))

@@ -29,6 +29,7 @@ from embedding.geometry.domain import Domain
 from embedding.geometry.places import displaced
 from embedding.geometry.spaces import Mask
 from embedding.shell.point_loads import point_load_vector
+from embedding.threads import shared
 from embedding.timing import part
 
 if TYPE_CHECKING:
@@ -235,7 +236,7 @@ class System:
             led = membrane.extrapolating(
                 present - self._linearised, guessed=self._guessed, continued=self._continued
             )
-        with led:
+        with led, shared():
             self.form.AssembleLinearization(vector)
         self.lagging = self._guessed and membrane is not None
         self._linearised, self._guessed, self._continued = present, False, True

@@ -13,7 +13,6 @@ from ngsolve import BilinearForm, Variation
 
 from embedding.coupling.lagrangian import Lagrangian
 from embedding.shell.loads import dead_load_energy
-from embedding.threads import energy_of
 
 
 class LoadWork:
@@ -56,6 +55,6 @@ class LoadWork:
         present, energies = factor.Get(), []
         for shift in (1.0, -1.0):
             factor.Set(present + shift)
-            energies.append(energy_of(self._form, unknowns.state.vec))
+            energies.append(float(self._form.Energy(unknowns.state.vec)))
         factor.Set(present)
         return work - (energies[0] - energies[1]) / 2

@@ -52,7 +52,6 @@ from embedding.geometry.sizes import MeshSizes as MeshSizes
 from embedding.geometry.surroundings import BodyError
 from embedding.scene import Shape as Shape
 from embedding.scene import SurfaceFile
-from embedding.threads import alone
 
 FINER = ((1.0, 1.0), (1.0, 0.8), (0.9, 0.6))
 """Size on the shell and grading of the mesh that is taken, over what is asked for: now and then an element on the
@@ -282,8 +281,7 @@ class Domain:
 
     def shell_integral(self, values: Any) -> float:
         """Integral of ``values`` over the reference mid-surface of the whole body (plane strain: per length)."""
-        with alone():
-            return float(Integrate(CF(values) * self.reduction.measure * self.surface(), self.mesh))
+        return float(Integrate(CF(values) * self.reduction.measure * self.surface(), self.mesh))
 
 
 def _rule(element: Any, degree: int) -> dict[Any, Any]:

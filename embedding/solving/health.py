@@ -101,9 +101,10 @@ def magnetic_layer(problem: Problem) -> float:
     """
     scene, scales = problem.scene, problem.scales
     remanence = scene.shell.constant_vectors.get("remanence")
-    if remanence is None or not any(remanence) or not any(scene.ambient.uniform_field):
+    applied = (0.0,) if scene.ambient is None else scene.ambient.uniform_field
+    if remanence is None or not any(remanence) or not any(applied):
         return math.inf
-    moment = math.hypot(*remanence) * math.hypot(*scene.ambient.uniform_field)
+    moment = math.hypot(*remanence) * math.hypot(*applied)
     return scene.shell.thickest / scales.length * math.sqrt(scales.stress / (3.0 * moment))
 
 

@@ -24,7 +24,6 @@ from embedding.solving.field import field_on
 from embedding.solving.loads import mechanical_loads
 from embedding.solving.shell import law_on, thickness_on
 from embedding.solving.supports import held_by_supports
-from embedding.threads import alone
 from embedding.timing import part
 
 Array = npt.NDArray[np.float64]
@@ -48,7 +47,6 @@ class Problem:
         SceneError: the scene states something that this version cannot model.
     """
 
-    @alone()  # several threads colour the elements of a space as they come, and sums follow the colours
     def __init__(self, scene: Scene, plan: Plan, domain: Domain | None = None) -> None:
         refuse_unmodelled(scene, plan)
         self.scene, self.plan, self.scales = scene, plan, Scales.of(scene)

@@ -105,6 +105,7 @@ def test_a_whole_one(archive: Path) -> None:
     assert found.message == f"{archive}: whole; 3 steps"
 
 
+@pytest.mark.slow
 def test_without_its_end(archive: Path, tmp_path: Path) -> None:
     """What was written first outlives what was written last."""
     path, saved = tmp_path / "cut.vtkhdf", tmp_path / "saved.vtkhdf"

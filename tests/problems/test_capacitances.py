@@ -46,6 +46,7 @@ def test_a_square_with_smaller_elements_at_its_edges() -> None:
     assert abs(2.0 * fine - coarse) < 3e-4
 
 
+@pytest.mark.slow
 def test_a_cube_with_larger_elements_at_its_edges(tmp_path: Path) -> None:
     """The potential goes like r^(2/3) there: the error falls at least as the power 4/3 of the elements' size."""
     cube = capacitances.cube(tmp_path / "cube.brep")

@@ -267,6 +267,7 @@ def test_the_field_draws_the_balloon_out() -> None:
     assert np.all(np.abs(solution["pressure_top"] - solution["pressure_bottom"]) > 300.0)
 
 
+@pytest.mark.slow
 def test_soft_balloon_in_3d() -> None:
     """Fewer steps end in the same state; mean pressures are compared on the scale of the air's."""
     flat, solid = soft(*FINE)[0], permeable_in_3d()

@@ -71,6 +71,7 @@ def test_plate_under_end_shear() -> None:
     assert path.solution.iterations <= MOST
 
 
+@pytest.mark.slow
 def test_plate_under_end_moment() -> None:
     """The bent plate widens by (k T)^2 / 12 = 2.3e-4, k its curvature, and turns by twice that more than a strip: its
     tip, 2 pi 4.6e-4 beyond the full turn, is 0.0055 short of the clamp."""

@@ -10,8 +10,8 @@ import pytest
 from embedding import Listener, load_scene, solve
 
 CASES = {
-    "a field": ("charged_balloon", "path.0.steps=1", "discretisation.shell_size=0.004"),
-    "a membrane in 3D": ("hencky_membrane", "model.reduction=3d"),
+    "a field": ("charged_balloon", "path.0.steps=1", "discretisation.order=2", "discretisation.shell_size=0.02"),
+    "a membrane in 3D": ("hencky_membrane", "model.reduction=3d", "discretisation.order=2", "path.0.steps=2"),
 }
 
 
