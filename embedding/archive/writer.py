@@ -35,7 +35,7 @@ from embedding.archive.digests import (
 )
 from embedding.archive.file import check_target, reading
 from embedding.archive.lagrange import LagrangeBlock
-from embedding.archive.memory import packed
+from embedding.archive.memory import Floats, packed
 from embedding.archive.repair import rewrite
 from embedding.archive.room import require_room
 from embedding.errors import ArchiveError
@@ -45,6 +45,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from embedding.solving.events import StepRecord
+
+Packed = tuple[str, Floats]
+"""What a run goes on from, as its text and its row of numbers."""
 
 
 @dataclass(frozen=True)
@@ -119,20 +122,21 @@ class ArchiveWriter:
 
         The fields and scalars of the first step are those of the run; ``memory`` is what ``memory.packed`` takes.
         """
+        kept = packed(memory)
         if self.committed and self._remeshed:
-            self._append_on_new_meshes(record, fields, memory)
+            self._append_on_new_meshes(record, fields, kept)
             return
-        more = _size(fields, memory)
+        more = _size(fields, kept)
         if self.committed:
             with self._open(self.path, "r+", more) as file:
-                self._step(file, record, fields, memory)
+                self._step(file, record, fields, kept)
             self.committed += 1
             return
         self._remeshed = False
         with self._open(self._partial, "w", more + _size_of(self.blocks)) as file:
             self._create(file)
             layout.create_scalars(file["embedding"], list(_scalars(record)), self.per_length)
-            layout.create_checkpoint(file["embedding"], len(packed(memory)[1]))
+            layout.create_checkpoint(file["embedding"], len(kept[1]))
             declared: dict[str, dict[str, tuple[str, tuple[int, ...]]]] = {name: {} for name in self.blocks}
             for field in fields:
                 declared[field.block][field.name] = (field.unit, field.values.shape[1:])
@@ -140,15 +144,13 @@ class ArchiveWriter:
             self._add_origins(file["embedding"])
             label_axes(file)
             file["embedding/digest"][...] = record_digest(file)
-            self._step(file, record, fields, memory)
+            self._step(file, record, fields, kept)
         self.committed = 1
         self._place(self.target, list(self.blocks))
 
-    def _append_on_new_meshes(
-        self, record: StepRecord, fields: Sequence[SampledField], memory: Mapping[str, Any]
-    ) -> None:
+    def _append_on_new_meshes(self, record: StepRecord, fields: Sequence[SampledField], kept: Packed) -> None:
         """Commit a step that changes what there is in the file, in a copy that takes its place."""
-        more = _size(fields, memory) + _size_of(self.blocks)
+        more = _size(fields, kept) + _size_of(self.blocks)
         self._copy()
         with self._open(self._partial, "r+", more) as file:
             own, steps = file["embedding"], self.committed
@@ -161,7 +163,7 @@ class ArchiveWriter:
             self._add_origins(own)
             label_axes(file)
             file["embedding/digest"][...] = record_digest(file)
-            self._step(file, record, fields, memory)
+            self._step(file, record, fields, kept)
         self.committed, self._remeshed = self.committed + 1, False
         self._place(self.path, list(self.blocks))
 
@@ -200,7 +202,7 @@ class ArchiveWriter:
         file: Any,
         record: StepRecord,
         fields: Sequence[SampledField],
-        memory: Mapping[str, Any],
+        kept: Packed,
     ) -> None:
         own, step = file["embedding"], self.committed
         shared = own["vtk"]
@@ -223,16 +225,16 @@ class ArchiveWriter:
             columns[f"vtk/{name}"] = put(tables[name], step, np.reshape(entry, shape))[0]
         put(stored(own, "steps/rows_digest"), step, [row_digest(columns, newton)])
         put(stored(own, "steps/fields_digest"), step, [values_digest(written)])
-        self._keep(own["checkpoint"][layout.SLOTS[(step + 1) % 2]], memory)
+        self._keep(own["checkpoint"][layout.SLOTS[(step + 1) % 2]], kept)
         _synchronise(file)
         for block in self.blocks:
             file["VTKHDF"][block]["Steps"].attrs.modify("NSteps", np.int64(step + 1))
         put(stored(own, "committed"), 0, layout.counted(step + 1))
         _synchronise(file)
 
-    def _keep(self, slot: Any, memory: Mapping[str, Any]) -> None:
+    def _keep(self, slot: Any, kept: Packed) -> None:
         """Write what the run goes on from into the slot that does not count yet."""
-        text, numbers = packed(memory)
+        text, numbers = kept
         data = np.frombuffer(text.encode(), "u1")
         put(stored(slot, "text"), 0, data)
         put(stored(slot, "numbers"), 0, numbers)
@@ -316,9 +318,9 @@ def _synchronise(file: Any) -> None:
     layout.to_disk(file.filename)
 
 
-def _size(fields: Sequence[SampledField], memory: Mapping[str, Any]) -> int:
+def _size(fields: Sequence[SampledField], kept: Packed) -> int:
     """Bytes that a step takes at most, but for its tables."""
-    return sum(2 * 4 * field.values.size for field in fields) + 2 * packed(memory)[1].nbytes
+    return sum(2 * 4 * field.values.size for field in fields) + 2 * kept[1].nbytes
 
 
 def _size_of(blocks: Mapping[str, LagrangeBlock]) -> int:

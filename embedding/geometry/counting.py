@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-import resource
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -87,5 +87,9 @@ def _of_the_group() -> float:
 
 
 def _of_the_process() -> float:
+    if sys.platform == "win32":
+        return math.inf
+    import resource
+
     limit, _ = resource.getrlimit(resource.RLIMIT_AS)
     return math.inf if limit == resource.RLIM_INFINITY else float(limit)
