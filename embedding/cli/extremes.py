@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 COLOURS = {"right": "green", "told": "yellow", "failed": "cyan", "refused": "blue", "wrong": "bold red"}
 LEGEND = {
     "right": "the error is within the cell's tolerance",
-    "told": "it is not, but the solution's own error estimate, a health check or an assumption says so",
+    "told": "it is not, but the solution's error estimate says so, or a health check or an assumption names the cause",
     "failed": "the solve ended with a reason that is true, where it should",
     "refused": "the scene was not accepted, for a true reason",
     "wrong": "a wrong number without a word, an untrue reason, an exception, or no end",

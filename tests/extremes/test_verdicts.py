@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import replace
 
@@ -11,6 +12,7 @@ from embedding import Scene
 from embedding.bench.extremes import FAILED, REFUSED, RIGHT, TOLD, WRONG, Cell, cells_of, judge, running
 from tests.balloons import SMALLEST
 
+PUSHED = "column, pushed aside", "0.9999 of Euler's load"
 BLOWN_UP = SMALLEST.replace("500 Pa", "5 kPa").replace("steps = 1", 'control = "load"\nsteps = 1')
 
 
@@ -42,6 +44,52 @@ def test_told() -> None:
     stated = judge(cell).stated
     off = judge(replace(known("stretch", 1 + stated), tolerance=0.1 * stated))
     assert (off.verdict, off.reason) == (TOLD, "error estimate")
+
+
+def stating(error: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every solve states this relative error of the stretch from now on."""
+    from embedding import api
+
+    solution = api.solve(small())
+    stated = replace(solution.errors["stretch"], value=error)
+    monkeypatch.setattr(api, "solve", lambda *_, **__: replace(solution, errors={"stretch": stated}))
+
+
+@pytest.mark.parametrize(("factor", "verdict"), [(2.9, TOLD), (3.1, WRONG), (-0.9, TOLD), (-1.1, WRONG)])
+def test_that_all_is_uncertain_tells_of_twice_the_answer(
+    factor: float, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cell = known("stretch", factor)
+    stating(1.0, monkeypatch)
+    assert judge(cell).verdict == verdict
+
+
+def test_what_is_stated_of_another_number_tells_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    cell = known("displacement", 1.01)
+    stating(1.0, monkeypatch)
+    assert judge(cell).verdict == WRONG
+
+
+def test_a_warning_tells_only_of_what_it_causes() -> None:
+    """Near its limit point the column is in red, and that is why it is off."""
+    (cell,) = (one for one in cells_of("limit_points") if (one.row, one.value) == PUSHED)
+    told = judge(cell)
+    assert (told.verdict, told.reason) == (TOLD, "limit point")
+    assert judge(replace(cell, warnings=())).verdict == WRONG
+    assert judge(replace(cell, warnings=("condition",))).verdict == WRONG
+
+
+def test_the_column_is_off_by_its_strain() -> None:
+    """With its compression by P / EA, which shortens the length that buckles, it is off ten times less (C. Magnusson,
+    M. Ristinmaa, C. Ljung, Int. J. Solids Struct. 38 (2001) 8441)."""
+    (cell,) = (one for one in cells_of("limit_points") if (one.row, one.value) == PUSHED)
+    near, ratio = 0.9999, 1e-3
+    shortened = 1.0 - near * math.pi**2 * ratio**2 / 48.0
+    k = 0.5 * math.pi * math.sqrt(near * shortened)
+    tip = shortened * 1e-8 / near * (math.tan(k) / k - 1.0)
+    found = judge(replace(cell, reference=lambda: {"u_tip_y": tip}, tolerance=2e-4))
+    assert found.verdict == RIGHT
+    assert found.error < 0.1 * judge(cell).error
 
 
 def test_failures_need_a_true_reason_at_the_right_place() -> None:

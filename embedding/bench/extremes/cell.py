@@ -33,8 +33,11 @@ class Cell:
 
     It stands in the map of its ``family`` in a ``row``, in the column ``value``. ``reasons`` are the results of a solve
     that would be a true reason to fail, ``fields`` the paths (or beginnings of paths) in a scene that may truly be
-    refused. ``expected`` is the verdict that tests hold it to. Where that is ``FAILED`` the answers of the steps that
-    were accepted are compared as well, so that an end is at the right place. A cell is given up after ``seconds``; a
+    refused, ``warnings`` the topics of health checks and assumptions that would be the true cause of an error: where
+    one of these is red the error was told, whatever is estimated; no other one counts.
+
+    ``expected`` is the verdict that tests hold it to. Where that is ``FAILED`` the answers of the steps that were
+    accepted are compared as well, so that an end is at the right place. A cell is given up after ``seconds``; a
     ``slow`` one is left out of the default tests.
     """
 
@@ -48,6 +51,7 @@ class Cell:
     answers: Callable[[Solution], Numbers] = last_scalars
     reasons: frozenset[str] = frozenset()
     fields: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     expected: str = RIGHT
     seconds: float = 60.0
     slow: bool = False

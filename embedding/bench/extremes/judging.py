@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from embedding.scene import Scene
     from embedding.solving import Solution
 
-UNKNOWN = 1.0
-"""An error estimate of all of a number says that nothing of it is known."""
 HONEST = 2.0
-"""An answer that is off by no more than this many times its own error estimate was told to be."""
+"""An answer that is off by no more than this many times its own error estimate was told to be. The estimate is a part
+of the answer, and so is the error that it is held against; that all of an answer is uncertain (an estimate of 1) tells
+of an error of twice the answer, and of no larger one."""
 
 
 def judge(cell: Cell, threads: int | None = None) -> Finding:
@@ -57,10 +57,10 @@ def _compared(cell: Cell, solution: Solution) -> Finding:
     missing = [name for name in reference if not math.isfinite(answers.get(name, math.nan))]
     if missing:
         return _finding(cell, WRONG, solution.result.name, message=f"no {', '.join(missing)}: {solution.message}")
-    errors = {name: abs(answers[name] - exact) / abs(exact) for name, exact in reference.items()}
+    errors = _errors(answers, reference)
     worst = max(errors, key=errors.__getitem__, default="")
     error, stated = errors.get(worst, 0.0), _stated(solution, worst)
-    verdict, reason = _verdict(cell, solution, errors)
+    verdict, reason = _verdict(cell, solution, answers, reference)
     told = solution.message
     if verdict in (TOLD, WRONG) and solution.result.ok:
         told = f"{worst} is {answers[worst]:.9g}, {reference[worst]:.9g} by {cell.source}"
@@ -68,24 +68,29 @@ def _compared(cell: Cell, solution: Solution) -> Finding:
     return replace(_finding(cell, verdict, reason, message=told), error=error, stated=stated, found=found)
 
 
-def _verdict(cell: Cell, solution: Solution, errors: Numbers) -> tuple[str, str]:
-    """The verdict on a solution with these ``errors``, and what it rests on."""
+def _errors(answers: Numbers, reference: Numbers) -> Numbers:
+    return {name: abs(answers[name] - exact) / abs(exact) for name, exact in reference.items()}
+
+
+def _verdict(cell: Cell, solution: Solution, answers: Numbers, reference: Numbers) -> tuple[str, str]:
+    """The verdict on a solution with these ``answers``, and what it rests on."""
+    errors = _errors(answers, reference)
     if not solution.result.ok:
         right = max(errors.values(), default=0.0) <= cell.tolerance
         return FAILED if right else WRONG, solution.result.name
     off = [name for name, error in errors.items() if error > cell.tolerance]
     if not off:
         return RIGHT, ""
-    if all(errors[name] <= HONEST * _stated(solution, name) or _stated(solution, name) >= UNKNOWN for name in off):
+    stated = {name: HONEST * _stated(solution, name) * abs(answers[name]) for name in off}
+    if all(abs(answers[name] - reference[name]) <= most for name, most in stated.items()):
         return TOLD, "error estimate"
-    warned = ", ".join(_warnings(solution))
+    warned = ", ".join(topic for topic in _warnings(solution) if topic in cell.warnings)
     return (TOLD, warned) if warned else (WRONG, "")
 
 
 def _stated(solution: Solution, name: str) -> float:
-    """The error that the solution states of a scalar, or else of its answer."""
-    error = solution.errors.get(name, solution.error)
-    return math.nan if error is None else error.value
+    """The error that the solution states of this scalar, a part of its answer; nan where it says nothing of it."""
+    return solution.errors[name].value if name in solution.errors else math.nan
 
 
 def _warnings(solution: Solution) -> Iterator[str]:

@@ -14,7 +14,9 @@ from embedding.scene import Scene
 
 LOADS = (0.1, 1.0, 5.0, 25.0, 100.0, 1e3, 1e5)
 """a = 12 B_r B L^2 / (mu0 E T^2) of a strip, with E = 4 mu."""
-LENGTH, RATIO, REMANENCE, FIELD = 0.1, 1e-3, 0.1, 3e4
+LENGTH, RATIO, REMANENCE, FIELD = 0.1, 1e-5, 0.1, 3e4
+"""So thin that what the elastica leaves out is small beside the load: the field pulls the strip longer by a T^2 / 12
+L^2, and its layer L / a^(1/2) at the clamp is hundreds of thicknesses."""
 LAYER = 20.0
 """From this root of the load on the tip lies along the field to exp(-20)."""
 ANGLES = {"across": 0.5 * math.pi, "nearly against": math.radians(179.0)}
@@ -22,14 +24,20 @@ ANGLES = {"across": 0.5 * math.pi, "nearly against": math.radians(179.0)}
 
 def cells() -> list[Cell]:
     """A strip clamped at one end, with its remanence along it."""
-    return [
-        Cell(
-            "remanence", f"strip, field {row}", f"a = {load:g}", partial(_scene, row, load), partial(_tip, row, load),
-            "the elastica of a hard-magnetic beam (Zhao et al. 2019)", tolerance=2e-3, slow=load != 25.0,
-            expected=RIGHT if load < 1e3 or (row, load) == ("across", 1e3) else TOLD, seconds=400.0,
-        )
-        for row in ANGLES for load in LOADS
-    ]  # fmt: skip
+    return [*(_cell(row, load) for row in ANGLES for load in LOADS), _cell("across", LOADS[-1], within=True)]
+
+
+def _cell(row: str, load: float, *, within: bool = False) -> Cell:
+    """In elements of a twentieth of the length, whatever the load, or ``within`` the layer: there the error is gone
+    that the health of the solution told."""
+    name = f"strip, field {row}" + (", elements within the layer" if within else "")
+    coarse = (load, row) == (1e3, "nearly against") or (load == LOADS[-1] and not within)
+    return Cell(
+        "remanence", name, f"a = {load:g}", partial(_scene, row, load, 1.0 / math.sqrt(load) if within else 0.05),
+        partial(_tip, row, load), "the elastica of a hard-magnetic beam (Zhao et al. 2019)", tolerance=1e-3,
+        warnings=("magnetic layer",),  # the beam bends within a part of the element at the clamp
+        expected=TOLD if coarse else RIGHT, slow=load != 25.0, seconds=400.0,
+    )  # fmt: skip
 
 
 @cache
@@ -73,7 +81,7 @@ def _pendulum(angle: float, load: float) -> tuple[float, float]:
     return integral(q1, math.cos), integral(q1, math.sin)
 
 
-def _scene(row: str, load: float) -> Scene:
+def _scene(row: str, load: float, element: float) -> Scene:
     modulus = 12 * REMANENCE * FIELD / (4 * RATIO**2 * load)
     angle = ANGLES[row]
     return Scene.from_table(
@@ -90,7 +98,7 @@ def _scene(row: str, load: float) -> Scene:
                 "applied_field": [FIELD * math.cos(angle), FIELD * math.sin(angle), 0.0],
             },
             "model": {"coupling": "unperturbed"},
-            "discretisation": {"shell_size": 0.05 * LENGTH},
+            "discretisation": {"shell_size": 0.05 * LENGTH, "edge_size": {"x0": element * LENGTH}},
             "output": {"points": {"tip": [LENGTH, 0.0, 0.0]}},
         }
     )
