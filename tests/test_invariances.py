@@ -184,7 +184,7 @@ def test_numbering_does_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
     """A disc whose mesh has its points, elements and corners shuffled: the same answer to the solver's tolerance."""
     scene = disc(0.0, 800.0, model=Model(reduction="3d", symmetry="none"), discretisation=Discretisation(order=2))
     plan = explain(scene)
-    straight = domains.meshing.mesh(scene.shell.shape, plan.reduction, plan.sizes)
+    straight = domains.kept.mesh(scene.shell.shape, plan.reduction, plan.sizes)
     plain = on_mesh(scene, renumbered(straight, 0), monkeypatch)
     shuffled = on_mesh(scene, renumbered(straight, 1), monkeypatch)
     numbers = [[v.point for v in p.mesh.vertices] for p in (plain[0], shuffled[0])]
@@ -193,7 +193,7 @@ def test_numbering_does_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def on_mesh(scene: Scene, meshed: Meshed, monkeypatch: pytest.MonkeyPatch) -> tuple[Problem, Solution]:
-    monkeypatch.setattr(domains.meshing, "mesh", lambda shape, reduction, sizes: meshed)
+    monkeypatch.setattr(domains.kept, "mesh", lambda shape, reduction, sizes: meshed)
     run = Run(scene, ())
     return run.problem, run.solve()
 

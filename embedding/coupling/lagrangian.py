@@ -197,7 +197,7 @@ class Lagrangian:
         volume = enclosed_volume(self.domain, kinematics, u)
         if unknown is None:
             return self.factors.mechanical * self.physics.loads.difference * volume
-        reference = self.reference_volume / self.domain.shell_integral(1.0)
+        reference = self.reference_volume / self.domain.area
         return unknown * (volume - self.factors.volume * reference)
 
     @property

@@ -38,13 +38,15 @@ class ShellResultants:
             self._form += Variation(term).Compile()
         self._moved = ["u", *(self._unknowns.moved_by(face) for face in self._unknowns.opened)]
         self._rows = self._unknowns.state.vec.CreateVector()
+        shifts = _translations(self._domain)
+        self._shifts = [{name: self._motion(name, shift) for name in self._placed} for shift in shifts]
 
     def evaluate(self) -> tuple[Array, Array]:
         """Force (d,) and torque (3 in space, 1 in plane strain, none in axisymmetry) of the present state."""
         self._form.Apply(self._unknowns.state.vec, self._rows)
         if self._following is not None:
             self._following.add_to(self._rows, -1.0)
-        forces = [sum(self._work(name, shift) for name in self._placed) for shift in _translations(self._domain)]
+        forces = [sum(self._work(name, motion) for name, motion in shift.items()) for shift in self._shifts]
         torques = [sum(self._turned(name, turn) for name in self._moved) for turn in _turns(self._domain)]
         return np.array(forces), np.array(torques)
 
@@ -55,12 +57,17 @@ class ShellResultants:
 
     def _turned(self, name: str, turn: Turn) -> float:
         present = self._unknowns.field(name)
-        return self._work(name, turn(present + self._domain.reduction.position if name in self._placed else present))
+        turned = turn(present + self._domain.reduction.position if name in self._placed else present)
+        return self._work(name, self._motion(name, turned))
 
-    def _work(self, name: str, motion: Any) -> float:
+    def _motion(self, name: str, motion: Any) -> Array:
+        """The unknown ``name`` of a ``motion`` of the shell."""
         direction = GridFunction(self._unknowns.field(name).space)
         direction.Set(motion, BND, definedon=self._domain.shell)
-        return float(self._rows.FV().NumPy()[self._unknowns.range(name)] @ direction.vec.FV().NumPy())
+        return np.array(direction.vec.FV().NumPy())
+
+    def _work(self, name: str, motion: Array) -> float:
+        return float(self._rows.FV().NumPy()[self._unknowns.range(name)] @ motion)
 
 
 class BodyResultants:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -69,6 +70,8 @@ class System:
         self._point_forces = point_load_vector(domain, self.unknowns.trace, physics.loads)
         self.load_work = LoadWork(self.lagrangian, self._point_forces)
         self._displaced = displaced(domain, self.unknowns.trace, physics.prescribed)
+        self._update = GridFunction(self.unknowns.trace.space)
+        self._update_squared = InnerProduct(self._update, self._update)
         self._held: tuple[str, ...] = ()
         self._solver = self._linear_solver(())
         self._measured = self._linearised = self._displacement
@@ -326,8 +329,13 @@ class System:
         """sqrt(|residual . step| / (T A)): an energy norm per shear modulus and shell volume."""
         mask = self._solver.mask
         work = float(np.dot(residual.FV().NumPy()[mask], step.FV().NumPy()[mask]))
-        size = self.domain.shell_integral(self.physics.thickness)
-        return float(np.sqrt(abs(work) / size))
+        return float(np.sqrt(abs(work) / self.shell_volume))
+
+    @cached_property
+    def shell_volume(self) -> float:
+        """Reference volume of the shell itself, dimensionless (plane strain: per length): a scale of what is measured,
+        so that the mesh that was first is good enough."""
+        return self.domain.shell_integral(self.physics.thickness)
 
     @property
     def symmetric(self) -> bool:
@@ -341,10 +349,9 @@ class System:
 
     def displacement_norm(self, vector: Any) -> float:
         """Root mean square over the shell of the displacement part of a state-sized ``vector``, in shell sizes."""
-        field = GridFunction(self.unknowns.trace.space)
-        field.vec.FV().NumPy()[:] = vector.FV().NumPy()[self.unknowns.range("u")]
-        squared = self.domain.shell_integral(InnerProduct(field, field))
-        return float(np.sqrt(squared / self.domain.shell_integral(1.0)))
+        self._update.vec.FV().NumPy()[:] = vector.FV().NumPy()[self.unknowns.range("u")]
+        squared = self.domain.shell_integral(self._update_squared)
+        return float(np.sqrt(squared / self.domain.area))
 
     def save(self) -> Memory:
         """A copy of the whole state as named arrays, for :meth:`restore`: all unknowns, the motions of the ambient,

@@ -52,6 +52,7 @@ class FaceTractions:
         self.kinematics = Kinematics(
             domain.reduction, domain.normal, self.displacement, lagrangian.physics.axial_stretch
         )
+        self._pressure = self.pressure()
 
     def refresh(self) -> None:
         """Bring the face's displacement and ``tau`` up to date with the state."""
@@ -74,7 +75,7 @@ class FaceTractions:
 
     def mean_pressure(self) -> float:
         """Mean of the pressure over the reference mid-surface."""
-        return self._domain.shell_integral(self.pressure()) / self._domain.shell_integral(1.0)
+        return self._domain.shell_integral(self._pressure) / self._domain.area
 
 
 class NodalForces:

@@ -40,7 +40,7 @@ from ngsolve import (
 )
 
 from embedding.errors import Problem, SceneError
-from embedding.geometry import curvature, meshing
+from embedding.geometry import curvature, kept
 from embedding.geometry.counting import TooLargeError
 from embedding.geometry.cut import CloseSheetsError, JunctionError
 from embedding.geometry.facets import Facets, Integers, Mask, OneSidedError
@@ -283,6 +283,14 @@ class Domain:
         """Integral of ``values`` over the reference mid-surface of the whole body (plane strain: per length)."""
         return float(Integrate(CF(values) * self.reduction.measure * self.surface(), self.mesh))
 
+    @property
+    def area(self) -> float:
+        """Area of the reference mid-surface of the whole body, in squares of its size (plane strain: per length).
+
+        Anew every time: what the error of the geometry is, a mesh that is curved again tells.
+        """
+        return self.shell_integral(1.0)
+
 
 def _rule(element: Any, degree: int) -> dict[Any, Any]:
     """Exact for products of two polynomials of ``degree`` on a straight element."""
@@ -310,7 +318,7 @@ def build(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Domain:
 
 def _built(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Domain:
     try:
-        meshed = meshing.mesh(shape, reduction, sizes)
+        meshed = kept.mesh(shape, reduction, sizes)
         meshed.mesh.Curve(sizes.order)
         domain = Domain(meshed.mesh, reduction, shape, sizes, meshed.faces, meshed.rim_vertices, meshed.rim_edges)
         _ = domain.normal

@@ -167,7 +167,7 @@ def compressed(problem: Problem, scalars: dict[str, float]) -> bool:
 def region_in_compression(problem: Problem, state: State) -> str:
     """Where the membrane is in compression: share of the area, centre and box of the reference positions, in m."""
     inside = IfPos(COMPRESSION - state.min_principal_stress, 1.0, 0.0)
-    share = problem.domain.shell_integral(inside) / problem.domain.shell_integral(1.0)
+    share = problem.domain.shell_integral(inside) / problem.domain.area
     rule = IntegrationRule(ET.TRIG if problem.mesh.dim == 3 else ET.SEGM, 2 * problem.domain.sizes.order)
     points = problem.mesh.MapToAllElements(rule, problem.domain.shell)
     chosen = np.asarray(inside(points)).ravel() > 0.5

@@ -141,7 +141,7 @@ class Neglected:
     def _mean_square(self, vector: Any) -> float:
         """Root of the mean square over the reference mid-surface."""
         domain = self.problem.domain
-        return math.sqrt(domain.shell_integral(InnerProduct(vector, vector)) / domain.shell_integral(1.0))
+        return math.sqrt(domain.shell_integral(InnerProduct(vector, vector)) / domain.area)
 
     @property
     def strain(self) -> float:

@@ -144,7 +144,7 @@ class ShellPath:
     def _mass(self) -> Any:
         domain, space = self.problem.domain, self._system.unknowns.trace.space
         trial, test = space.TnT()
-        area = domain.shell_integral(1.0)
+        area = domain.area
         form = BilinearForm(space, symmetric=True)
         form += domain.reduction.measure / area * InnerProduct(trial.Trace(), test.Trace()) * domain.surface()
         return form.Assemble().mat

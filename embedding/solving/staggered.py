@@ -89,8 +89,7 @@ class Parts:
 
     def _work(self, forces: Array, change: Array) -> float:
         """Root of the work of ``forces`` on ``change`` per shear modulus and shell volume, like Newton's decrement."""
-        volume = self.joint.domain.shell_integral(self.joint.physics.thickness)
-        return math.sqrt(abs(float(forces @ change)) / volume)
+        return math.sqrt(abs(float(forces @ change)) / self.joint.shell_volume)
 
 
 class Staggered(Parts):

@@ -89,7 +89,7 @@ class State:
 
     def mean_pressures(self) -> tuple[float, float]:
         """Means of p_t and p_b over the reference mid-surface, in Pa."""
-        area = self._domain.shell_integral(1.0)
+        area = self._domain.area
         mechanical = [self._domain.shell_integral(CF(p)) / area for p in self._mechanical_pressures()]
         top, bottom = self.field_pressures()
         return self._scales.stress * mechanical[0] + top, self._scales.stress * mechanical[1] + bottom
@@ -109,7 +109,7 @@ class State:
             traction.refresh()
             pressure, along = traction.pressure(), traction.tangential()
             squared = self._domain.shell_integral(pressure * pressure + InnerProduct(along, along))
-            sizes[face] = self._scales.stress * math.sqrt(squared / self._domain.shell_integral(1.0))
+            sizes[face] = self._scales.stress * math.sqrt(squared / self._domain.area)
         return sizes["t"], sizes["b"]
 
     # -- what goes into archives and pictures
@@ -215,7 +215,7 @@ class State:
     @property
     def held_force(self) -> float:
         """Size of the uniform dead force that holds the free rigid motions, dimensionless; 0 if the loads balance."""
-        area = self._domain.shell_integral(1.0)
+        area = self._domain.area
         forces = [float(self._values[f"rigid{i}"].vec[0]) for i in range(len(self._unknowns.rigid))]
         return area * math.sqrt(sum(force**2 for force in forces))
 
@@ -223,10 +223,10 @@ class State:
     def displacement(self) -> float:
         """Root mean square of the displacement over the shell, in shell sizes."""
         u = self._values["u"]
-        return math.sqrt(self._domain.shell_integral(InnerProduct(u, u)) / self._domain.shell_integral(1.0))
+        return math.sqrt(self._domain.shell_integral(InnerProduct(u, u)) / self._domain.area)
 
     def _stretches(self) -> dict[str, float]:
-        area = self._domain.shell_integral(1.0)
+        area = self._domain.area
         ratio = self._domain.shell_integral(self.mid_surface.surface_stretch) / area
         plane = self._domain.reduction.name == "plane-strain"
         axial = float(self._values["axial"].vec[0]) if "axial" in self._values else self._system.physics.axial_stretch
@@ -243,7 +243,7 @@ class State:
         return np.asarray(values(self._domain.mesh.MapToAllElements(rule, self._domain.shell)))
 
     def _pressure_difference(self) -> float:
-        area = self._domain.shell_integral(1.0)
+        area = self._domain.area
         top, bottom = self._mechanical_pressures()
         return self._scales.stress * self._domain.shell_integral(CF(bottom - top)) / area
 

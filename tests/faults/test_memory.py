@@ -67,6 +67,15 @@ def test_solves(tmp_path: Path) -> None:
     assert growth(used) < PER_SOLVE
 
 
+def test_solves_with_a_field() -> None:
+    scene, used = load_scene(SCENE, SETS), []
+    for _ in range(SOLVES):
+        solve(scene)
+        used.append(in_use())
+    print(f"{growth(used):.0f} bytes per solve, {used[-1] / 1e6:.1f} MB in use")
+    assert growth(used) < PER_SOLVE
+
+
 def test_meshes() -> None:
     """Netgen keeps the names of every shape that was ever meshed, some 20 kB each, until it is told to forget them."""
     scene = load_scene(SCENE, SETS)

@@ -11,7 +11,7 @@ from netgen.occ import Axes, Compound, Glue, WorkPlane
 from ngsolve import CF, InnerProduct, Integrate
 
 from embedding import SceneError, SurfaceFile, TSection
-from embedding.geometry import domain, meshing
+from embedding.geometry import domain, kept
 from embedding.geometry.cut import AWAY, BOTTOM, RIM, TOP, CloseSheetsError, Cut, JunctionError
 from embedding.geometry.domain import MeshSizes, build
 from embedding.geometry.facets import Facets
@@ -160,7 +160,7 @@ def test_a_junction_in_space_is_refused() -> None:
 
 def test_a_band_with_one_side_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Facets, "on_edges", True)
-    monkeypatch.setattr(meshing, "mesh", lambda *_: alone(moebius(20, True)))
+    monkeypatch.setattr(kept, "mesh", lambda *_: alone(moebius(20, True)))
     monkeypatch.setattr(domain.Domain, "unfolded", True)
     with pytest.raises(SceneError, match="^shell.shape: not allowed: .* only one side, so it has no top$"):
         build(TSection(length=1.0), Reduction("3d"), SIZES)

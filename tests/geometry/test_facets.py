@@ -11,7 +11,7 @@ from netgen.occ import Axes, Glue, WorkPlane
 from ngsolve import H1, GridFunction, Integrate, Mesh, ds
 
 from embedding import Plate, SceneError
-from embedding.geometry import meshing
+from embedding.geometry import kept, meshing
 from embedding.geometry.domain import Domain, MeshSizes, build
 from embedding.geometry.facets import Facets, OneSidedError
 from embedding.geometry.outline import SurfaceOutline
@@ -144,11 +144,11 @@ def alone(mesh: Mesh) -> meshing.Meshed:
 
 def test_bad_meshes_end_in_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     shape, sizes = CASES["annulus"].shape, MeshSizes(0.3, 0.3, 0.0, 0.3, 1)
-    monkeypatch.setattr(meshing, "mesh", lambda *_: alone(moebius(20, False)))
+    monkeypatch.setattr(kept, "mesh", lambda *_: alone(moebius(20, False)))
     with pytest.raises(SceneError, match="discretisation.shell_size: .* has holes"):
         build(shape, Reduction("3d"), sizes)
     monkeypatch.setattr(Facets, "on_edges", True)
-    monkeypatch.setattr(meshing, "mesh", lambda *_: alone(moebius(20, True)))
+    monkeypatch.setattr(kept, "mesh", lambda *_: alone(moebius(20, True)))
     with pytest.raises(SceneError, match="only one side"):
         build(shape, Reduction("3d"), sizes)
 

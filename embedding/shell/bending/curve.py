@@ -51,7 +51,7 @@ class CurveBending:
         if self._axisymmetric:
             fixed[: domain.mesh.nv][np.abs(reference_positions(domain.mesh)[:, 0]) < ON_AXIS] = True
         self._trace.fix(0, fixed)
-        self._unit = domain.shell_integral(stiffness.thickness**3) / domain.shell_integral(1.0)
+        self._unit = domain.shell_integral(stiffness.thickness**3) / domain.area
         self._given = GridFunction(self._trace.scalar)
         for edge, given in moments:
             for vertex in facets_named(domain.facets, (edge,)):
