@@ -33,6 +33,8 @@ LAUNCHES = (1.0, 3.0, 0.5, 0.25, 0.125, 0.0625)
 the harder case: it has next to no tension."""
 IMPATIENT = 0.2
 """A first step from rest is cut no shorter than this part before another way is tried."""
+THERE = 1e-14
+"""A goal is met within this rounding of displacements, in sizes of the structure."""
 RETRIES = 5
 """How often a step into compression is halved, to end close to where it begins, and one that is too long to find the
 critical points in it."""
@@ -131,9 +133,15 @@ class ArcStage:
                 break
             self._number += 1
             if self._number == len(self._goals()):
-                return Result.CONVERGED
+                return self._at_the_end(walk)
             self._aim(walk)
         return walk
+
+    def _at_the_end(self, walk: Walk) -> Result:
+        """Done; a stage that is at its end where it begins has that state as its one step."""
+        if len(self.session.steps) > self._known:
+            return Result.CONVERGED
+        return self._accepted(walk.here, self._iterations) or Result.CONVERGED
 
     @property
     def _goal(self) -> Condition:
@@ -142,7 +150,7 @@ class ArcStage:
     def _aim(self, walk: Walk) -> None:
         """Send the walk to the present goal, if it is not there."""
         walk.goal = self._goal
-        walk.done = walk.goal.gap(walk.here.values, walk.here.parameter) == 0.0
+        walk.done = abs(walk.goal.gap(walk.here.values, walk.here.parameter)) <= THERE
 
     def _to_goal(self, walk: Walk) -> Walk | Result:
         """The walk at the present goal, or why it does not get there."""

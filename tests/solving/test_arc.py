@@ -120,6 +120,20 @@ def test_displacement_control_meets_every_part() -> None:
     assert [point.kind for point in solution.critical_points] == ["limit"]
 
 
+@pytest.mark.parametrize("control", ["auto", "displacement"])
+def test_an_end_that_is_where_the_stage_begins_is_one_step(control: str) -> None:
+    """At rest, without load, and with an error estimate; behind another stage, the state that one ended in."""
+    stage = {"control": control, "until": pole(1.0)}
+    solution = followed(path=[stage], discretisation={})
+    assert solution.result is Result.CONVERGED and solution.error is not None
+    (step,) = solution.steps
+    assert step.factor_mechanical == pytest.approx(0.0, abs=1e-12)
+    assert step.scalars["stretch"] == pytest.approx(1.0, abs=1e-12)
+    again = followed(path=[{"name": "out", "until": pole(1.5)}, {"until": pole(1.5)}])
+    assert [step.stage for step in again.steps].count("load") == 1
+    assert again.steps[-1].scalars["stretch"] == pytest.approx(1.5, abs=1e-6)
+
+
 def test_down_the_falling_branch_and_by_volume() -> None:
     """From a stretch of 2 on to a lower pressure: larger still, on the unstable branch."""
     path = [{"until": pole(2.0)}, {"mechanical": 0.5}]
