@@ -62,7 +62,6 @@ class ArcStage:
         self._follow_on(session.problem)
         self._iterations: list[Iteration] = []
         self._started = time.perf_counter()
-        self._bifurcations = 0
         self._good: Any = None
         self._walk: Walk | None = None
         self._launched: float | None = None
@@ -83,7 +82,6 @@ class ArcStage:
             "end": of_target(self.end),
             "goal": self._number,
             "known": self._known,
-            "bifurcations": self._bifurcations,
             "launched": self._launched,
             "walk": None if self._walk is None else self._walk.memory(),
         }
@@ -91,7 +89,7 @@ class ArcStage:
     def recall(self, memory: Memory) -> None:
         """Go on from what :meth:`memory` returned; the system is in the state of that step."""
         self._number, self._known = memory["goal"], memory["known"]
-        self._bifurcations, self._launched = memory["bifurcations"], memory["launched"]
+        self._launched = memory["launched"]
         walk = memory["walk"]
         if walk is None:
             return
@@ -305,14 +303,18 @@ class ArcStage:
 
     def _leaves(self, walk: Walk, critical: Critical) -> bool:
         """Is this where the stage goes over to another branch? Then the walk's last point is on that."""
-        self._bifurcations += 1
         branch = self.stage.branch
-        if branch is None or self._bifurcations != branch.number:
+        if branch is None:
+            return False
+        asked = self.session.branches[-1]
+        asked.met += 1
+        if asked.met != branch.number:
             return False
         point = onto_branch(self.corrector, walk.metric, critical, branch.amplitude, self._watch)
         if point is None:
             return False
         walk.go_on_from(point, 2 * abs(branch.amplitude))
+        asked.left = True
         return True
 
     def _watch(self, number: int, size: float, decrement: float) -> None:

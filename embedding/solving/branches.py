@@ -2,9 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from embedding.solving.continuation import Corrector, Direction, Metric, Watch
 from embedding.solving.critical import Critical
 from embedding.solving.curve import Point
+
+
+@dataclass
+class BranchAsked:
+    """A branch that a ``stage`` asks for, by the ``number`` of its bifurcation: how many were ``met`` so far, and
+    whether the path was ``left`` for it."""
+
+    stage: str
+    number: int
+    met: int = 0
+    left: bool = False
 
 
 def onto_branch(

@@ -15,6 +15,7 @@ from embedding.scene import Scene, Stage
 from embedding.scene.messages import nearest
 from embedding.solving.arc import ArcStage
 from embedding.solving.assumptions import check_assumptions
+from embedding.solving.branches import BranchAsked
 from embedding.solving.continuation import Condition, at_parameter
 from embedding.solving.diagnosis import out_of_theory
 from embedding.solving.estimate import default_quantity, estimate_errors
@@ -70,7 +71,8 @@ class Run(Session):
             with part("estimate"):
                 if result.ok:
                     estimates = estimate_errors(self.problem, self.at, self.steps)
-                    errors, health = estimates.errors, check_health(self.problem, estimates, self.steps)
+                    errors = estimates.errors
+                    health = check_health(self.problem, estimates, self.steps, self.branches)
         except KeyboardInterrupt:
             result, errors = Result.INTERRUPTED, {}
         except Exception as failure:
@@ -119,6 +121,8 @@ class Run(Session):
         self.stage, stage, memory = number, self.scene.path[number], self._way
         if memory is None:
             start, end = self._stage_start(stage), stage_target(stage, self.full_difference)
+            if stage.branch is not None:
+                self.branches.append(BranchAsked(stage.name, stage.branch.number))
         else:
             start, end = (Target(**memory[name]) for name in ("start", "end"))
         with_field, joint = self.problem.system.physics.field is not None, self.solver is self.newton

@@ -14,12 +14,14 @@ import numpy.typing as npt
 from ngsolve import BND, VOL, IfPos
 
 from embedding.geometry.positions import reference_position
+from embedding.solving.branches import BranchAsked
 from embedding.solving.energies import last_step
 from embedding.solving.estimate import Estimates
 from embedding.solving.events import StepRecord
 from embedding.solving.problem import Problem
 from embedding.solving.remeshing import WORN
 from embedding.solving.solution import Check
+from embedding.solving.stability import countable
 from embedding.solving.state import State
 
 Floats = npt.NDArray[np.float64]
@@ -29,14 +31,19 @@ FLATTENED = 0.05
 """Quality of an element (1 if regular) from which on its matrix and its interpolation suffer."""
 NEAR_LIMIT = 10.0
 """By what factor a relative change of the load may come back in the displacement."""
+UNMET = "its load lies beyond the end of the stage, or its mode breaks a symmetry that the plan makes use of"
 SINGULAR = 1e14
 """Condition of the tangent beyond which rounding reaches the answer's third digit, after one step of refinement."""
 
 
-def check_health(problem: Problem, estimates: Estimates, steps: Sequence[StepRecord]) -> tuple[Check, ...]:
-    """All checks at the present, converged state, the last of ``steps``, of which ``estimates`` are known."""
+def check_health(
+    problem: Problem, estimates: Estimates, steps: Sequence[StepRecord], branches: Sequence[BranchAsked] = ()
+) -> tuple[Check, ...]:
+    """All checks at the present, converged state, the last of ``steps``, of which ``estimates`` are known, and whether
+    the path went over to the ``branches`` that were asked for."""
     balance = None if problem.plan.coupling == "once" else last_step(problem, steps)
-    return (*_checks(problem, estimates), *(() if balance is None else (balance,)))
+    led = (of_branch(problem, branch) for branch in branches)
+    return (*_checks(problem, estimates), *(() if balance is None else (balance,)), *led)
 
 
 def _checks(problem: Problem, estimates: Estimates) -> Iterator[Check]:
@@ -90,6 +97,18 @@ def of_bending(problem: Problem) -> Iterator[Check]:
     if math.isfinite(turned):
         told = "element along edges, over its order, against the layer T (mu / (3 B_r H))^1/2 where a magnet turns"
         yield Check("magnetic layer", size / turned, "", "<= 1", size <= turned, told)
+
+
+def of_branch(problem: Problem, asked: BranchAsked) -> Check:
+    """Whether the path was left for a branch: if not, the answer is on another one than was asked for."""
+    told = f'bifurcations met in the stage "{asked.stage}", which asks for the branch of number {asked.number}'
+    if not asked.left:
+        if not countable(problem.system):
+            why = "unstable modes are not counted here, so that no bifurcation is seen"
+        else:
+            why = "no state on it was found" if asked.met >= asked.number else UNMET
+        told += f"; the answer is not on that branch: {why}"
+    return Check("branch", asked.met, "", f">= {asked.number}, and left there", asked.left, told)
 
 
 def magnetic_layer(problem: Problem) -> float:

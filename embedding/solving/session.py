@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from typing import Any, Protocol
 
 from embedding.errors import EmbeddingError, SceneError
@@ -12,6 +13,7 @@ from embedding.geometry.remeshing import RemeshingError
 from embedding.plan import explain
 from embedding.scene import Scene
 from embedding.solving.acceleration import ACCELERATORS
+from embedding.solving.branches import BranchAsked
 from embedding.solving.critical import Critical
 from embedding.solving.diagnosis import compressed, region_in_compression
 from embedding.solving.events import Iteration, Listener, StepRecord
@@ -60,6 +62,7 @@ class Session:
         self.remeshings, self._meshed_at = 0, 0
         self.steps: list[StepRecord] = []
         self.critical: list[CriticalPoint] = []
+        self.branches: list[BranchAsked] = []
         self.iterations, self.start = 0, "rest"
         self.detail, self.no_mesh = "", ""
         self.at = Target(0.0, 0.0, None, None if self.full_difference is None else 0.0)
@@ -77,6 +80,7 @@ class Session:
             "iterations": self.iterations,
             "start": self.start,
             "critical_points": [of_critical(point) for point in self.critical],
+            "branches": [asdict(branch) for branch in self.branches],
         }
 
     def recall(self, kept: Kept) -> None:
@@ -93,6 +97,7 @@ class Session:
         self.remeshings, self._meshed_at = len(kept.origins), memory["meshed_at"]
         self.steps, self.at, self.stage = list(kept.steps), Target(**memory["at"]), memory["stage"]
         self.critical = [critical_of(point) for point in memory["critical_points"]]
+        self.branches = [BranchAsked(**branch) for branch in memory["branches"]]
         self.iterations, self.start = memory["iterations"], memory["start"]
         self.load(self.at)
         self.problem.system.recall(memory["system"])

@@ -30,6 +30,7 @@ def assert_same(one: Archive, other: Archive) -> None:
     assert one.result == other.result
     assert one.error == other.error
     assert one.cuts == other.cuts
+    assert_equal(*([vars(check) for check in archive.health] for archive in (one, other)), "health")
     points = ([vars(point) for point in archive.critical_points] for archive in (one, other))
     assert_equal(*(list(found) for found in points), "critical points")
 

@@ -38,6 +38,31 @@ def test_after_a_step(name: str, tmp_path: Path) -> None:
     check_resumed_after(scene_called(name), tmp_path, SOME.get(name, 2))
 
 
+COLUMN = """
+name = "column"
+[shell]
+shape = { kind = "strip", length = "1 m" }
+thickness = "10 mm"
+material = { law = "st-venant-kirchhoff", youngs_modulus = "1 GPa", poisson_ratio = 0 }
+[[supports]]
+where = "x0"
+kind = "clamped"
+[[loads.edge_tractions]]
+edge = "x1"
+traction = ["-308 N/m", 0, 0]
+"""
+"""Under 1.5 times Euler's load."""
+NEXT = pytest.param(1.0, [True, False], marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize(("part", "found"), [(0.5, [False, True]), NEXT])
+def test_onto_a_branch_or_not(part: float, found: list[bool], tmp_path: Path) -> None:
+    """Two stages that ask for one: met in the first one, or in the second."""
+    stages = (f'[[path]]\nname = "{name}"\nmechanical = {to}\nbranch = {{}}' for name, to in (("a", part), ("b", 1.1)))
+    check_resumed_after(Scene.from_toml("\n".join((COLUMN, *stages))), tmp_path, 7)
+    assert [c.good for c in open_archive(tmp_path / "whole.vtkhdf").health if c.topic == "branch"] == found
+
+
 @pytest.mark.parametrize("name", [BY_ARC_LENGTH, "membrane", "staggered"])
 def test_with_new_meshes_on_the_way(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(session, "WORN", 1.0)

@@ -251,6 +251,20 @@ def test_onto_the_bent_branch_of_a_column(side: float) -> None:
     assert np.sign(tip[1]) == side * np.sign(mode[np.argmax(np.abs(mode))])
 
 
+@pytest.mark.parametrize(("part", "number", "met"), [(0.5, 1, 0), (1.0, 7, 1), (1.0, 1, 1)])
+def test_a_branch_that_is_not_met_is_told(part: float, number: int, met: int) -> None:
+    """Below Euler's load a column has none, up to one and a half times that one: 9 Euler loads is the next."""
+    straight = column({"number": number})
+    stages = (straight.path[0].model_copy(update={"mechanical": part}),)
+    solution = run(straight.model_copy(update={"path": stages}))
+    assert solution.result is Result.CONVERGED
+    (check,) = (one for one in solution.health if one.topic == "branch")
+    assert check.value == met
+    assert check.good is (number == met)
+    assert (solution["displacement"][-1] > 0.1) == check.good
+    assert ("not on that branch" in check.sentence) is not check.good
+
+
 def test_switching_needs_a_way_off() -> None:
     with pytest.raises(Exception, match="must not be 0"):
         column({"amplitude": 0.0})
