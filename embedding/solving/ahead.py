@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from embedding.solving.compression import mostly_compressed, region_in_compression, strongly_compressed
 from embedding.solving.continuation import Corrector, at_parameter
 from embedding.solving.critical import Search
 from embedding.solving.newton import Clock
@@ -11,6 +12,7 @@ from embedding.solving.path import Target
 from embedding.solving.problem import Problem
 from embedding.solving.result import Result
 from embedding.solving.shell_path import ShellPath
+from embedding.solving.state import State
 from embedding.solving.walk import Stride, Walk, start
 
 STEPS, ITERATIONS = 40, 12
@@ -20,10 +22,12 @@ STRIDE = Stride(0.1, 0.25, 1e-3)
 
 @dataclass(frozen=True)
 class Ahead:
-    """What was seen: the load of a ``limit`` point, or that the end is ``reached`` without one; else nothing."""
+    """What was seen: the load of a ``limit`` point, that the end is ``reached`` without one, or where a membrane was
+    ``compressed`` before either; else nothing."""
 
     limit: Target | None = None
     reached: bool = False
+    compressed: str | None = None
 
 
 def look_ahead(problem: Problem, here: Target, end: Target, tolerance: float) -> Ahead:
@@ -40,7 +44,7 @@ def look_ahead(problem: Problem, here: Target, end: Target, tolerance: float) ->
 
 
 def _seen(path: ShellPath, corrector: Corrector) -> Ahead:
-    goal = at_parameter(1.0)
+    problem, goal = path.problem, at_parameter(1.0)
     found = start(corrector, goal, _unwatched)
     if isinstance(found, Result):
         return Ahead()
@@ -49,13 +53,18 @@ def _seen(path: ShellPath, corrector: Corrector) -> Ahead:
     for _ in range(STEPS):
         if walk.advance() is not None:
             return Ahead()
-        if walk.done:
-            return Ahead(reached=True)
         before, tangent = walk.before, walk.here.tangent
         if before is not None and tangent is not None and tangent.parameter < 0.0:
             critical = Search(corrector, metric, _unwatched).between(before, walk.here) or []
-            turns = [one.parameter for one in critical if one.kind == "limit"]
-            return Ahead(path.target(turns[0] if turns else max(before.parameter, walk.here.parameter)))
+            turns = [one for one in critical if one.kind == "limit"]
+            path.restore(turns[0].point.saved if turns else walk.here.saved)
+            if mostly_compressed(problem):
+                return Ahead(compressed=region_in_compression(problem, State(problem)))
+            return Ahead(path.target(turns[0].parameter if turns else max(before.parameter, walk.here.parameter)))
+        if strongly_compressed(problem):
+            return Ahead(compressed=region_in_compression(problem, State(problem)))
+        if walk.done:
+            return Ahead(reached=True)
     return Ahead()
 
 

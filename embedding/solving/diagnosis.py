@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from ngsolve import ET, IfPos, IntegrationRule
 
 from embedding.coupling.linear import LinearSolverError
 from embedding.solving.ahead import look_ahead
+from embedding.solving.compression import mostly_compressed, region_in_compression
 from embedding.solving.estimate.bent import SHARP, Bent
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
@@ -24,10 +24,9 @@ LOST = FOLLOWED | {Result.STEP_BELOW_MINIMUM, Result.LINEAR_SOLVER_FAILED}
 """Results that may have another cause than they say."""
 PROBE = 1e-4
 STEEP = 5.0
-COMPRESSION = -1e-3
 CROWDED = 0.9
-"""Finite difference of the response, how much steeper a limit point is than the landmark, the smallest principal
-stress, in shear moduli, that still counts as no compression, and the part of space that a shell may reach to."""
+"""Finite difference of the response, how much steeper a limit point is than the landmark, and the part of space that a
+shell may reach to."""
 
 
 def response_rate(problem: Problem, here: Target, towards: Target) -> float:
@@ -78,9 +77,11 @@ def diagnose(
     """Refine the ``reason`` why there is no step from the last good state, at the load ``here``, to ``failed``; and
     words about it, if there is more to say than the reason's own.
 
-    The path is followed by arc length to see. Where it cannot be followed, this tells: near a limit point at the load
-    p* the response grows like (p* - p)^(-1/2). The steps were cut down to a tiny part of the planned one, so between
-    the ``landmark`` and here it must have grown manyfold; where Newton fails for another reason it has hardly changed.
+    The path is followed by arc length to see. A membrane that comes into compression on it ends there, and what its
+    mesh makes of the path behind is no limit point. Where it cannot be followed, this tells: near a limit point at the
+    load p* the response grows like (p* - p)^(-1/2). The steps were cut down to a tiny part of the planned one, so
+    between the ``landmark`` and here it must have grown manyfold; where Newton fails for another reason it has hardly
+    changed.
     A limit point comes first: the wild updates beside it may fail in any way, turning the ambient over included.
     """
     if reason is Result.COMPRESSIVE_MEMBRANE or stage.end.volume is not None:
@@ -90,10 +91,14 @@ def diagnose(
         return end, detail
     if problem.plan.coupling != "once":  # whose states are no equilibria of the joint system
         ahead = look_ahead(problem, here, failed, stage.tolerance)
+        if ahead.compressed is not None:
+            return Result.COMPRESSIVE_MEMBRANE, ahead.compressed
         if ahead.limit is not None:
             return limit_reason(problem, here, stage.end), largest(problem, ahead.limit)
         if ahead.reached:
             return crowded(problem, reason)
+    if mostly_compressed(problem):
+        return Result.COMPRESSIVE_MEMBRANE, region_in_compression(problem, State(problem))
     if landmark is not None:
         before = landmark.measured(problem, stage.end).rate
         now = response_rate(problem, here, stage.end) / (1 - stage.fraction)
@@ -150,37 +155,6 @@ def out_of_theory(problem: Problem, reason: Result) -> Result:
     if reason not in FOLLOWED and ratio**2 < HIDDEN * float(np.finfo(float).eps):
         return Result.TOO_THIN
     return Result.SHARPLY_BENT if Bent(problem).sharpest > SHARP else reason
-
-
-def compressed(problem: Problem, scalars: dict[str, float]) -> bool:
-    """Is the membrane in compression where nothing keeps it from wrinkling?
-
-    A flat shell whose whole surface is held normal to itself cannot wrinkle; every other membrane can.
-    """
-    if problem.plan.bending or scalars["min_principal_stress"] >= COMPRESSION * problem.scales.stress:
-        return False
-    held = {support.held for support in problem.scene.supports if support.where == "surface"}
-    flat = problem.domain.is_flat
-    return not (flat and any("z" in directions for directions in held))
-
-
-def region_in_compression(problem: Problem, state: State) -> str:
-    """Where the membrane is in compression: share of the area, centre and box of the reference positions, in m."""
-    inside = IfPos(COMPRESSION - state.min_principal_stress, 1.0, 0.0)
-    share = problem.domain.shell_integral(inside) / problem.domain.area
-    rule = IntegrationRule(ET.TRIG if problem.mesh.dim == 3 else ET.SEGM, 2 * problem.domain.sizes.order)
-    points = problem.mesh.MapToAllElements(rule, problem.domain.shell)
-    chosen = np.asarray(inside(points)).ravel() > 0.5
-    places = problem.embed(np.asarray(problem.reduction.position(points)).reshape(len(chosen), -1)[chosen])
-    if not len(places):
-        return ""
-    low, high, centre = (_place(f(places, axis=0)) for f in (np.min, np.max, np.mean))
-    kind = " (axisymmetric: x is the radius)" if problem.reduction.name == "axisymmetric" else ""
-    return f"{100 * share:.3g} % of the area around {centre} m, from {low} to {high} m{kind}"
-
-
-def _place(point: Any) -> str:
-    return "[" + ", ".join(f"{c + 0.0:.3g}" for c in point) + "]"
 
 
 def _grounded(problem: Problem) -> bool:

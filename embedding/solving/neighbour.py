@@ -16,8 +16,8 @@ from typing import Any
 from embedding.errors import memory_errors
 from embedding.scene import Scene
 from embedding.solving.arc import ArcStage
+from embedding.solving.compression import compressed
 from embedding.solving.continuation import at_parameter
-from embedding.solving.diagnosis import compressed
 from embedding.solving.driver import Run
 from embedding.solving.events import Iteration, Listener
 from embedding.solving.memory import Kept

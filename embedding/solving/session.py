@@ -14,8 +14,8 @@ from embedding.plan import explain
 from embedding.scene import Scene
 from embedding.solving.acceleration import ACCELERATORS
 from embedding.solving.branches import BranchAsked
+from embedding.solving.compression import compressed, region_in_compression
 from embedding.solving.critical import Critical
-from embedding.solving.diagnosis import compressed, region_in_compression
 from embedding.solving.events import Iteration, Listener, StepRecord
 from embedding.solving.memory import Kept, Memory, critical_of, mesh_digest, of_critical, of_target
 from embedding.solving.newton import Newton
