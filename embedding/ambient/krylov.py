@@ -12,6 +12,7 @@ import numpy.typing as npt
 from ngsolve import InnerProduct
 
 from embedding.ambient.patches import Cycle
+from embedding.blas import scipy_ready
 from embedding.threads import shared
 
 Array = npt.NDArray[np.float64]
@@ -111,6 +112,7 @@ def gmres(
         count += 1
     from scipy.linalg import solve_triangular  # slow to load, and small systems need no iteration
 
+    scipy_ready()
     weights = solve_triangular(triangle[:count, :count], turned[:count])
     found = np.zeros_like(right_side)
     for weight, known in zip(weights, basis, strict=False):

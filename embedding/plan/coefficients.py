@@ -9,6 +9,9 @@ BENT = 0.4
 """The same of the theory with bending, 0.17 and 0.37 at most: both from the table that ends docs/theory/bending.md."""
 CLOSED_FACES = 1.6
 """A field on faces at the mid-surface is off by this many thicknesses over size; measured on exact thick spheres."""
+RIMS = 1.0
+"""What the side of a thick conductor at its rims is worth to the field, times thickness over width: a bound over
+rectangles of T/L from 0.01 to 0.05 (tests/solving/test_rims.py), 0.9 at most."""
 OWN_FIELD = 0.1
 """Of the load on a magnet in a field H, times (M / H) (T / L): what its own field does to it. A bound over clamped
 strips that bend by a tenth to nearly all of their length, 0.07 at most."""

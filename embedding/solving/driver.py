@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from embedding.blas import numpy_ready
 from embedding.errors import Problem as SceneProblem
 from embedding.errors import SceneError, memory_errors, out_of_memory
 from embedding.scene import Scene, Stage
@@ -42,6 +43,7 @@ def run(scene: Scene, listeners: Sequence[Listener] = (), kept: Kept | None = No
         OtherMeshError: the meshes that the earlier run was on do not come out the same again.
     """
     with parallel(scene.solver.threads), memory_errors():
+        numpy_ready()
         return Run(scene, listeners, kept).solve()
 
 

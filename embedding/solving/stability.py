@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from embedding.blas import scipy_ready
 from embedding.coupling.linear import LinearSolverError
 from embedding.coupling.system import System
 from embedding.geometry.spaces import Mask
@@ -125,6 +126,7 @@ def _factors(core: sparse.csc_array) -> Any:
     from scipy.sparse import csc_matrix
     from scipy.sparse.linalg import splu
 
+    scipy_ready()
     try:
         factors = splu(
             csc_matrix(core),

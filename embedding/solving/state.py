@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from ngsolve import CF, ET, Grad, Id, IfPos, InnerProduct, IntegrationRule, sqrt, x
 
+from embedding.ambient.potential import Conductor
 from embedding.coupling.field import FieldEnergies
 from embedding.coupling.potential_solve import PotentialSolve
 from embedding.shell.kinematics import Kinematics
@@ -187,6 +188,11 @@ class State:
 
     # -- scalars
 
+    @property
+    def area(self) -> float:
+        """Area of the reference mid-surface of the whole body, in m^2 (plane strain: its length, in m)."""
+        return self._scales.length ** (self._lengths - 1) * self._domain.area
+
     @part("scalars")
     def scalars(self) -> dict[str, float]:
         """Named numbers of the present state in SI units (plane strain: per metre of the cylinder)."""
@@ -267,13 +273,25 @@ class State:
         """Voltages and charges: of the shell (base voltage, charge of both faces), of its film, of other bodies. Of the
         poles in a magnetic field potentials in A, and the flux that leaves them."""
         volts, coulombs = self._scales.potential, self._scales.flux_density * self._scales.length ** (self._lengths - 1)
-        level, content = ("potential", "flux") if self._scales.magnetic else ("voltage", "charge")
         named: dict[str, float] = {}
         for conductor in potential.conductors:
-            suffix = {"shell": "", "jump": "_jump"}.get(conductor.label, f"_{conductor.label}")
-            named[f"{level}{suffix}"] = volts * potential.voltage(conductor)
-            named[f"{content}{suffix}"] = coulombs * potential.charge(conductor)
+            level, content = self._names_of(conductor)
+            named[level] = volts * potential.voltage(conductor)
+            named[content] = coulombs * potential.charge(conductor)
         return named
+
+    def _names_of(self, conductor: Conductor) -> tuple[str, str]:
+        """The scalars of its level and of its content."""
+        level, content = ("potential", "flux") if self._scales.magnetic else ("voltage", "charge")
+        suffix = {"shell": "", "jump": "_jump"}.get(conductor.label, f"_{conductor.label}")
+        return level + suffix, content + suffix
+
+    @property
+    def given(self) -> frozenset[str]:
+        """The scalars that the scene states: the level or the content of every conductor."""
+        potential = self._system.potential
+        conductors = [] if potential is None else potential.conductors
+        return frozenset(self._names_of(one)[one.voltage is None] for one in conductors)
 
     def _forces(self) -> dict[str, float]:
         """Resultants of the field on the shell and on every body; components that symmetry makes zero are left out."""

@@ -11,6 +11,7 @@ shear           what bending without transverse shear leaves out, from the shear
 curling         what rubber bent to a radius not far above its thickness takes less than the theory says (:mod:`.bent`)
 opened faces    where a field acts on them, of second order in t/r (:mod:`.theory`)
 closed faces    the same at the mid-surface: 1.6 t/r of the field's load and of what the field itself is
+rims            the side between the faces of a thick conductor, which the shell has not: t over its width
 far field       what Robin's condition makes of the harmonics it is not exact for (ambient/harmonics)
 solver          the last update of Newton's method, or of the turns of field and shell
 ==============  =====================================================================================================
@@ -28,7 +29,7 @@ from dataclasses import dataclass
 
 from embedding.geometry.outline import SHARP_ANGLE
 from embedding.geometry.remeshing import one_order_more
-from embedding.plan.coefficients import CLOSED_FACES
+from embedding.plan.coefficients import CLOSED_FACES, RIMS
 from embedding.plan.far_field import reach_of
 from embedding.solving.estimate.bent import Bent
 from embedding.solving.estimate.enriched import Changes, Enriched
@@ -47,7 +48,8 @@ STILL = 1e-12
 COUNTED = ("unstable_modes", "remeshings", "min_jacobian", "coupling_iterations", "contraction", "coupling_gap",
            "held_force")  # fmt: skip
 """Scalars that describe the run and not the answer."""
-OF_FIELD = ("charge", "flux", "field_energy", "force", "torque", "pressure_top", "pressure_bottom")
+OF_FIELD = ("charge", "flux", "voltage", "potential", "field_energy", "force", "torque", "pressure_top",
+            "pressure_bottom")  # fmt: skip
 STEEPER = 6.0
 """The error of the energy far away goes like the fifth power of the shell's size over the ambient's radius (sixth in
 the plane), so that forces, its derivatives by that size, are off by so many times as much of themselves."""
@@ -56,7 +58,10 @@ CHARGED, STEEPEST = 2.0, 10.0
 THROUGH = 0.15
 """Of the tractions on opened faces of permeable and dielectric shells times (t/r)^2: a bound of the root mean squares
 of what was measured on exact spheres of three regions, from mu_r = 2 to 1e6 (tests/problems/test_permeable_sphere).
-Tubes are exact (test_tubes_in_a_field)."""
+Tubes in a uniform field are exact (test_tubes_in_a_field)."""
+ASIDE = 0.3
+"""Of the tractions on both faces times (t/r)^3, in forces: where the shell is hardly seen they nearly cancel, and what
+is off in them to the next order. A bound over exact tubes beside a line current, from mu_r = 1.001 to 50."""
 
 
 @dataclass(frozen=True)
@@ -231,34 +236,74 @@ def _field(
     if ambient is None or plan.extent != "surroundings":
         return {}
     found, pull = {}, responses.get("field", {})
+    own = _own(problem, scalars)
+    rims = _rims(problem)
     if wall is not None:
         found["opened faces" if plan.opened else "closed faces"] = _faces(problem, wall, scalars, responses)
+    elif not plan.opened:
+        off = CLOSED_FACES * _thickness(problem) / _width(problem)
+        found["closed faces"] = {name: off * (pull.get(name, 0.0) + own[name]) for name in scalars}
+    if rims:
+        found["rims"] = {name: rims * (pull.get(name, 0.0) + own[name]) for name in scalars}
     if ambient.outer != "grounded" and not plan.sizes.beyond and plan.sizes.box is None:
         reach = reach_of(problem.scene, ambient) * max(1.0, scalars.get("stretch_max", 1.0))
         off = _missed_far_away(problem, reach)
-        found["far field"] = {
-            name: off * (STEEPER * pull.get(name, 0.0) + _own(name, value)) for name, value in scalars.items()
-        }
+        found["far field"] = {name: off * (STEEPER * pull.get(name, 0.0) + own[name]) for name in scalars}
     return found
 
 
 def _faces(problem: Problem, wall: Wall, scalars: Scalars, responses: dict[str, Scalars]) -> Scalars:
-    state = State(problem)
+    state, own = State(problem), _own(problem, scalars)
     pulled, pull = state.field_pressures(), responses.get("field", {})
     steep = _steepness(sum(pulled), scalars, responses)
     opened = bool(problem.plan.opened)
-    off, own = (wall.face(steep), wall.place(steep)) if opened else (2 * [CLOSED_FACES * wall.thin])
+    off, place = (wall.face(steep), wall.place(steep)) if opened else (2 * [CLOSED_FACES * wall.thin])
     borne = abs(problem.scales.stress * wall.pressure(law_of(problem)))
     off *= min(1.0, sum(map(abs, pulled)) / borne) if borne > 0.0 else 1.0
-    missed = {name: -off * pull.get(name, 0.0) - own * _own(name, value) for name, value in scalars.items()}
-    field = problem.system.physics.field
-    if opened and not wall.tube and field is not None and field.matter.contrast is not None:
-        through = THROUGH * wall.thin**2
-        sizes = dict(zip(("pressure_top", "pressure_bottom"), state.field_tractions(), strict=True))
-        for name, value in scalars.items():
-            of_it = sizes.get(name, abs(_own(name, value)))
+    missed = {name: -off * pull.get(name, 0.0) - place * own[name] for name in scalars}
+    if opened and _misplaced_inside(problem, wall):
+        through, aside = THROUGH * wall.thin**2, ASIDE * wall.thin**3
+        tractions = dict(zip(("pressure_top", "pressure_bottom"), state.field_tractions(), strict=True))
+        for name in scalars:
+            of_it = tractions.get(name, abs(own[name]))
             missed[name] = abs(missed[name]) + through * (of_it + abs(pull.get(name, 0.0)))
+            missed[name] += aside * sum(tractions.values()) * _lever(state, name)
     return missed
+
+
+def _misplaced_inside(problem: Problem, wall: Wall) -> bool:
+    """Does the field go through the wall, in a way that a shell has not exactly?"""
+    field = problem.system.physics.field
+    if field is None or field.matter.contrast is None:
+        return False
+    return not wall.tube or field.varying is not None or bool(field.bodies)
+
+
+def _lever(state: State, name: str) -> float:
+    """From tractions to a force or torque, in m^2 or m^3 (plane strain: m, m^2); 0 for what is neither."""
+    if name.startswith("force"):
+        return state.area
+    return state.area * state.problem.scales.length if name.startswith("torque") else 0.0
+
+
+def _thickness(problem: Problem) -> float:
+    """Over the size of the shell."""
+    return float(problem.scene.shell.thickest / problem.scales.length)
+
+
+def _width(problem: Problem) -> float:
+    """What the distance of the faces counts against: the radius of a curved shell, the narrowest of a flat one."""
+    shape = problem.scene.shell.shape
+    return shape.narrowest / shape.size if problem.domain.is_flat else problem.domain.curvature_radius
+
+
+def _rims(problem: Problem) -> float:
+    """What the sides of a conductor at its rims are worth to the field; where it goes through the shell, less."""
+    field = problem.system.physics.field
+    if not problem.domain.open or field is None or field.matter.contrast is not None:
+        return 0.0
+    shape = problem.scene.shell.shape
+    return RIMS * problem.scene.shell.thickest / shape.narrowest
 
 
 def _missed_far_away(problem: Problem, reach: float) -> float:
@@ -279,9 +324,10 @@ def _steepness(pull: float, scalars: Scalars, responses: dict[str, Scalars]) -> 
     return min(max(slope, -STEEPEST), STEEPEST)
 
 
-def _own(name: str, value: float) -> float:
-    """What an error of the field does to a number of the field itself."""
-    return value if name.startswith(OF_FIELD) else 0.0
+def _own(problem: Problem, scalars: Scalars) -> Scalars:
+    """What an error of the field does to the numbers of the field itself; nothing to those that are given."""
+    given = State(problem).given
+    return {name: value if name.startswith(OF_FIELD) and name not in given else 0.0 for name, value in scalars.items()}
 
 
 def _last_update(problem: Problem, step: StepRecord) -> float:
