@@ -19,12 +19,16 @@ from embedding.trade.measuring import TOLERANCES
 
 PROBLEMS = Path(__file__).parents[1] / "problems"
 PAGE = Path(__file__).parents[1] / "docs" / "trades.md"
-BEGINNING = ("half_cylinder", "pinched_cylinder", "pulled_cylinder")
+BEGINNING = {
+    "half_cylinder": "path=[{mechanical=0.1}]",
+    "pinched_cylinder": "path=[{mechanical=0.1, steps=2}]",
+    "pulled_cylinder": "path=[{mechanical=0.1}]",
+}
 """Paths of minutes on every rung; solved to a tenth of their loads."""
 LONGEST = 40.0
 """Wall time in s after which a rung is given up."""
-PULL_IN = {"dielectric_film": 240.0, "plate_pull_in": 240.0}
-"""The same for paths past pull-in points, whose finest rungs take longer."""
+LONGER = {"dielectric_film": 240.0, "pinched_cylinder": 400.0, "plate_pull_in": 240.0}
+"""The same for paths past pull-in points, and that of a cylinder with diaphragms, whose finest rungs take longer."""
 MODELS = ("reduction", "shell theory", "faces", "coupling", "far field")
 """Choices of the model; those of the mesh are in the columns of the cheapest."""
 
@@ -34,8 +38,8 @@ def trades(folder: Path, names: Sequence[str]) -> Iterator[Trade]:
     for file in sorted(PROBLEMS.glob("*.toml")):
         if names and file.stem not in names:
             continue
-        changes = ("path=[{mechanical=0.1}]",) if file.stem in BEGINNING else ()
-        longest = PULL_IN.get(file.stem, LONGEST)
+        changes = (BEGINNING[file.stem],) if file.stem in BEGINNING else ()
+        longest = LONGER.get(file.stem, LONGEST)
         try:
             yield measure_trade(load_scene(file, changes), folder / file.stem, seconds=longest, progress=True)
         except StudyError as error:

@@ -11,8 +11,8 @@ import embedding
 
 ROOT = Path(embedding.__file__).parent
 FLOORS = (
-    "errors", "timing", "process", "threads", "scene", "geometry", "shell", "ambient", "coupling", "plan", "solving",
-    "accuracy", "progress", "archive", "post", "view", "fit", "api", "studies", "trade", "bench", "cli",
+    "errors", "timing", "process", "threads", "blas", "scene", "geometry", "shell", "ambient", "coupling", "plan",
+    "solving", "accuracy", "progress", "archive", "post", "view", "fit", "api", "studies", "trade", "bench", "cli",
 )  # fmt: skip
 FILES = sorted(ROOT.rglob("*.py"))
 

@@ -71,7 +71,6 @@ class System:
         self.load_work = LoadWork(self.lagrangian, self._point_forces)
         self._displaced = displaced(domain, self.unknowns.trace, physics.prescribed)
         self._update = GridFunction(self.unknowns.trace.space)
-        self._update_squared = InnerProduct(self._update, self._update)
         self._held: tuple[str, ...] = ()
         self._solver = self._linear_solver(())
         self._measured = self._linearised = self._displacement
@@ -327,14 +326,12 @@ class System:
 
     def decrement(self, residual: Any, step: Any) -> float:
         """sqrt(|residual . step| / (T A)): an energy norm per shear modulus and shell volume."""
-        mask = self._solver.mask
-        work = float(np.dot(residual.FV().NumPy()[mask], step.FV().NumPy()[mask]))
+        work = float(np.dot(*(vector.FV().NumPy()[self._solver.mask] for vector in (residual, step))))
         return float(np.sqrt(abs(work) / self.shell_volume))
 
     @cached_property
     def shell_volume(self) -> float:
-        """Reference volume of the shell itself, dimensionless (plane strain: per length): a scale of what is measured,
-        so that the mesh that was first is good enough."""
+        """Reference volume of the shell itself, dimensionless (plane strain: per length); found once."""
         return self.domain.shell_integral(self.physics.thickness)
 
     @property
@@ -350,7 +347,7 @@ class System:
     def displacement_norm(self, vector: Any) -> float:
         """Root mean square over the shell of the displacement part of a state-sized ``vector``, in shell sizes."""
         self._update.vec.FV().NumPy()[:] = vector.FV().NumPy()[self.unknowns.range("u")]
-        squared = self.domain.shell_integral(self._update_squared)
+        squared = self.domain.shell_integral(InnerProduct(self._update, self._update))
         return float(np.sqrt(squared / self.domain.area))
 
     def save(self) -> Memory:
