@@ -10,8 +10,9 @@ class Result(Enum):
 
     CONVERGED = "the whole path was solved"
     LIMIT_POINT = (
-        "a limit point under the prescribed pressure: beyond it no equilibrium is near. "
-        'Follow the path beyond it (control = "arc-length" in a stage), or control the enclosed volume (volume_ratio)'
+        "a limit point under the prescribed loads: beyond it no equilibrium is near. "
+        'Follow the path beyond it (control = "arc-length" in a stage), prescribe how far a point moves (until), '
+        "or the volume of a closed shell under pressure (volume_ratio)"
     )
     PULL_IN = (
         "a limit point under the prescribed field: beyond it no equilibrium is near. "

@@ -149,7 +149,7 @@ def test_pressure_control_past_the_limit_fails(changes: tuple[str, ...], limit: 
     assert solution.result is Result.LIMIT_POINT
     assert not solution.result.ok
     assert solution.result.advice in solution.message
-    assert "limit point under the prescribed pressure" in solution.message
+    assert "limit point under the prescribed loads" in solution.message
     assert "volume_ratio" in solution.message
     assert solution.error is None
     assert seen.cuts and seen.record == solution.steps[-1]
@@ -162,7 +162,7 @@ def test_pressure_control_past_the_limit_fails(changes: tuple[str, ...], limit: 
 
 
 def test_the_failure_is_raised_unless_asked_for_as_a_value() -> None:
-    with pytest.raises(SolveError, match="limit point under the prescribed pressure") as raised:
+    with pytest.raises(SolveError, match="limit point under the prescribed loads") as raised:
         sphere_inflation.run(*TOO_MUCH)
     solution = raised.value.solution
     assert solution.result is Result.LIMIT_POINT
