@@ -17,7 +17,7 @@ from embedding.plan.decisions import Plan
 from embedding.scene import Scene
 from embedding.solving.assumptions import raised
 from embedding.solving.result import Result
-from embedding.solving.solution import Assumption, Attempt, ErrorEstimate, Solution
+from embedding.solving.solution import DISCRETE, Assumption, Attempt, ErrorEstimate, Solution
 
 COUNTED = ("thin shell", "interface", "far field")
 """Assumptions that the error estimate has a part for, nearer to the truth than their bounds. On a closed shell that is
@@ -135,7 +135,8 @@ def _beyond(scene: Scene, level: Level, error: ErrorEstimate, model: float, rela
             field = change.split("=")[0].split(".")[1]
             if getattr(scene.model, field) == "auto":
                 return Verdict(f"{source} {error.parts[source]:.1e}", scene=higher, level=level)
-    worst = max((source for source in error.parts), key=lambda source: error.parts[source])
+    models = (source for source in error.parts if source not in DISCRETE)
+    worst = max(models, key=lambda source: error.parts[source])
     return Verdict(f"{worst} alone is {error.parts[worst]:.1e}, of {relative:g} in all", Result.BEYOND_THE_MODEL)
 
 

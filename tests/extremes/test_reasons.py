@@ -68,7 +68,7 @@ PLANTED: dict[Result, dict[str, Any]] = {
         0.5, shell={**BALLOON, "thickness": 0.1 * R}, accuracy={"relative": 1e-6, "of": ["displacement"]},
     ),
     Result.ACCURACY_NOT_REACHED: {
-        "shell": {"shape": {"kind": "disc", "radius": R}, "thickness": 1e-6, "material": STIFF},
+        "shell": {"shape": {"kind": "disc", "radius": R}, "thickness": 1e-9, "material": STIFF},
         "supports": [{"where": "surface", "fix": ["x", "y", "z"]}], "ambient": {"field": "electric"},
         "faces": {"both": {"voltage": 1e3}}, "model": {"interface": "closed"},
         "accuracy": {"relative": 1e-6, "of": ["charge"], "max_unknowns": 1000},
