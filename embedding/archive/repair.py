@@ -38,11 +38,13 @@ def salvage(path: str | os.PathLike[str], target: str | os.PathLike[str]) -> int
     """Write those steps of a damaged archive that are whole, from the first one on, as an archive of their own to
     ``target``; returns how many.
 
-    Raises ArchiveError if there are none, or if the archive cannot be written.
+    Raises ArchiveError if there are none, if ``target`` exists, or if the archive cannot be written.
     """
     source, copy = Path(path), check_target(target)
     if copy.exists() and copy.samefile(source):
         raise ArchiveError(f"{copy}: is the damaged archive itself; name another file")
+    if copy.exists():
+        raise ArchiveError(f"{copy}: exists already; what is saved needs a file of its own")
     with reading_what_is_left(source) as (file, damages):
         found = verified(source, file, damages)
         if not found.saveable:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import os
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing, contextmanager
@@ -22,8 +23,8 @@ from embedding.errors import ArchiveError
 @dataclass(frozen=True)
 class Verification:
     """What was found in the archive at ``path``: the number of ``steps`` that count, those that are ``whole`` (numbers
-    from 1), what is damaged, and what a killed run has left behind, which is ignored. ``resumable`` says whether what
-    a run goes on from is whole."""
+    from 1), what is damaged, and what a killed run has left behind, which is ignored. ``resumable`` says whether the
+    run has not reached its end, and what it goes on from is whole."""
 
     path: Path
     steps: int
@@ -157,7 +158,7 @@ class _Check:
             if damaged:
                 self.damages.append(f"{name} of {_listed(damaged)}")
         kept = bool(steps) and self._holds(f"the checkpoint of step {steps}", lambda: self._slot_holds(steps))
-        resumable = kept and int(self._slot(steps)["extent"][0]) == steps
+        resumable = kept and int(self._slot(steps)["extent"][0]) == steps and not self._finished
         self._holds("how the run ended", self._finish_holds)
         if record:
             self._holds("what viewers take for the number of steps", lambda: self._views_hold(steps))
@@ -221,9 +222,21 @@ class _Check:
         return self.file["embedding/checkpoint"][SLOTS[steps % 2]]
 
     def _finish_holds(self) -> bool:
-        finish = self.file["embedding/finish"]
-        data = finish["json"][: count_of(finish["length"])]
+        data = self._finish
         return len(data) == 0 or _same(digest_of(data), "embedding/finish", self.file)
+
+    @property
+    def _finish(self) -> Any:
+        finish = self.file["embedding/finish"]
+        return finish["json"][: count_of(finish["length"])]
+
+    @property
+    def _finished(self) -> bool:
+        """Has the run reached the end of its path? Not if that cannot be read: it is told as a damage then."""
+        try:
+            return bool(json.loads(bytes(self._finish))["result"]["name"] == "CONVERGED")
+        except Exception:  # as in _holds; or empty, where it has not ended
+            return False
 
     def _views_hold(self, steps: int) -> bool:
         """A run that is killed right before it counts a step has told viewers already."""

@@ -55,11 +55,11 @@ def run(
         from embedding.scene import load_scene
 
         stated = load_scene(scene, (*overrides, *_accuracy(accuracy, of)))
-    archive = check_output("--out", default_archive(stated.name) if out is None else out, ".vtkhdf")
+    archive = check_output("--out", default_archive(stated.name) if out is None else out, ".vtkhdf", read=scene)
     if picture is not None:
         from embedding.view.rendering import require_rendering
 
-        check_output("--picture", picture, ".png")
+        check_output("--picture", picture, ".png", read=scene)
         require_rendering()
 
     with loading():
@@ -154,7 +154,7 @@ def verify(
     Exit code 2 if it is damaged; the message says what is, and which steps can be saved.
     """
     if save is not None:
-        check_output("--save", save, ".vtkhdf")
+        check_output("--save", save, ".vtkhdf", new=True)
 
     from embedding.archive import salvage
     from embedding.archive import verify as look
@@ -214,7 +214,7 @@ def fit(
     if picture is not None:
         from embedding.view.rendering import require_packages
 
-        check_output("--picture", picture, ".png")
+        check_output("--picture", picture, ".png", read=data)
         require_packages()
 
     from embedding import fit as fitting
@@ -283,9 +283,9 @@ def trade(
     if not seconds > 0:
         raise UsageError(f"--seconds: {seconds:g} is not allowed: must be greater than 0")
     if csv is not None:
-        check_output("--csv", csv, ".csv")
+        check_output("--csv", csv, ".csv", read=scene)
     if picture is not None:
-        check_output("--picture", picture, ".png")
+        check_output("--picture", picture, ".png", read=scene)
     stated = load_scene(scene, overrides)
 
     from embedding.cli.trade import print_trade, trade_summary

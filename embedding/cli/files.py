@@ -24,11 +24,12 @@ def default_archive(name: str) -> Path:
     return Path(f"{stem}.vtkhdf")
 
 
-def check_output(option: str, path: Path, suffix: str) -> Path:
-    """Return ``path`` if a file with ``suffix`` can be written there.
+def check_output(option: str, path: Path, suffix: str, *, read: Path | None = None, new: bool = False) -> Path:
+    """Return ``path`` if a file with ``suffix`` can be written there: not over the one that is ``read``, and over none
+    if it is to be ``new``.
 
     Raises:
-        UsageError: wrong suffix, missing folder, a folder of that name, or no permission.
+        UsageError: wrong suffix, missing folder, a file or a folder of that name, or no permission.
     """
     folder = path.parent
     if path.suffix != suffix:
@@ -37,6 +38,10 @@ def check_output(option: str, path: Path, suffix: str) -> Path:
         raise UsageError(f"{option}: the folder {str(folder)!r} of {str(path)!r} does not exist")
     if path.is_dir():
         raise UsageError(f"{option}: {str(path)!r} is a folder, a file name is needed")
+    if read is not None and path.exists() and read.exists() and path.samefile(read):
+        raise UsageError(f"{option}: {str(path)!r} is the file that is read, and would be lost: name another")
+    if new and path.exists():
+        raise UsageError(f"{option}: {str(path)!r} exists already, and would be lost: name another")
     if not os.access(path if path.exists() else folder, os.W_OK):
         raise UsageError(f"{option}: no permission to write {str(path)!r}")
     return path

@@ -83,6 +83,7 @@ def check(path: Path, whole: str, saved: Path) -> str:
         return "sound"
     assert str(path) in found.message
     if found.saveable:
+        saved.unlink(missing_ok=True)
         assert salvage(path, saved) == found.saveable
         again = verify(saved)
         assert again.sound and again.steps == found.saveable, again.message

@@ -100,7 +100,7 @@ def test_a_unit_that_is_another(archive: Path, tmp_path: Path) -> None:
 
 def test_a_whole_one(archive: Path) -> None:
     found = verify(archive)
-    assert found.sound and found.resumable and found.leftovers == ()
+    assert found.sound and not found.resumable and found.leftovers == ()  # it is finished
     assert (found.steps, found.saveable, found.whole) == (3, 3, (1, 2, 3))
     assert found.message == f"{archive}: whole; 3 steps"
 
@@ -123,6 +123,7 @@ def test_without_its_end(archive: Path, tmp_path: Path) -> None:
         assert found.damages[0] == "its end is missing"
         counts.append(found.saveable)
         if found.saveable:
+            saved.unlink(missing_ok=True)
             assert salvage(path, saved) == found.saveable
             assert verify(saved).sound
     assert max(counts) >= 2
@@ -142,6 +143,7 @@ def test_what_is_saved_of_a_run_can_go_on_from_the_step_before(tmp_path: Path) -
     resume(saved)
     assert_same(open_archive(saved), open_archive(whole))
     flipped(copies.paths[2], spoilt, "embedding/scalars/charge", 1)
+    saved.unlink()
     assert salvage(spoilt, saved) == 1
     with pytest.raises(ArchiveError, match="saved from a damaged archive, without what a run goes on from"):
         resume(saved)
@@ -150,7 +152,7 @@ def test_what_is_saved_of_a_run_can_go_on_from_the_step_before(tmp_path: Path) -
 def test_half_a_step_is_reported(tmp_path: Path) -> None:
     """A kill between the rows of a step and the number of steps that count."""
     path = tmp_path / "run.vtkhdf"
-    tell(Recorder(path), Problem("axisymmetric", 1.0), steps=3)
+    tell(Recorder(path), Problem("axisymmetric", 1.0), steps=3, result="INTERRUPTED")
     with h5py.File(path, "r+", libver=LIBVER) as file:
         file["embedding/committed"][...] = [2, ~2]
     found = verify(path)

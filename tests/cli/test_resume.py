@@ -12,8 +12,8 @@ import h5py
 import numpy as np
 import pytest
 
-from embedding import open_archive, solve
-from embedding.archive import recorder, resuming
+from embedding import ArchiveError, open_archive, solve
+from embedding.archive import recorder, resuming, salvage
 from embedding.archive.layout import LIBVER
 from embedding.scene import load_scene
 from tests.archive.resumed import Stop
@@ -88,6 +88,25 @@ def test_verify(stopped: Path, call: Call) -> None:
     assert (outcome.code, outcome.out, outcome.err) == (0, "run.vtkhdf: whole; 1 step\n", "")
     report = json.loads(call("verify", stopped, "--json").out)
     assert report["sound"] and report["resumable"] and report["whole"] == [1]
+
+
+def test_a_finished_run_is_not_resumable(stopped: Path, call: Call) -> None:
+    """What `verify` says is what `resume` does."""
+    call("resume", stopped, "--no-progress")
+    report = json.loads(call("verify", stopped, "--json").out)
+    assert report["sound"] and not report["resumable"]
+    assert "the run is finished" in call("resume", stopped).err
+
+
+def test_what_is_saved_takes_the_place_of_nothing(stopped: Path, call: Call) -> None:
+    other = Path("other.vtkhdf")
+    other.write_bytes(b"of another run")
+    outcome = call("verify", stopped, "--save", other)
+    expected = "error: --save: 'other.vtkhdf' exists already, and would be lost: name another\n"
+    assert (outcome.code, outcome.out, outcome.err) == (2, "", expected)
+    with pytest.raises(ArchiveError, match="exists already; what is saved needs a file of its own"):
+        salvage(stopped, other)
+    assert other.read_bytes() == b"of another run"
 
 
 def test_verify_a_damaged_one(stopped: Path, call: Call) -> None:

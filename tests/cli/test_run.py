@@ -166,6 +166,20 @@ def test_outputs_are_checked_before_anything_is_solved(
     assert solver.calls == []
 
 
+@pytest.mark.parametrize(("option", "suffix"), [("--out", ".vtkhdf"), ("--picture", ".png")])
+def test_a_scene_is_not_written_over(scene_file: Path, call: Call, solver: Solver, option: str, suffix: str) -> None:
+    """Nor by another name of its file."""
+    scene, link = scene_file.with_suffix(suffix), scene_file.with_name(f"link{suffix}")
+    text = scene_file.read_text()
+    scene.write_text(text)
+    link.symlink_to(scene)
+    for name in (scene, link):
+        outcome = call("run", scene, option, name)
+        expected = f"error: {option}: {str(name)!r} is the file that is read, and would be lost: name another\n"
+        assert (outcome.code, outcome.out, outcome.err) == (2, "", expected)
+    assert solver.calls == [] and scene.read_text() == text
+
+
 def test_pictures_need_a_driver(scene_file: Path, call: Call, solver: Solver, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("embedding.view.rendering.can_render", lambda: False)
     outcome = call("run", scene_file, "--picture", "x.png")
