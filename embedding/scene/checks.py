@@ -15,6 +15,7 @@ from embedding.scene.checks_field import FIELD_CHECKS
 from embedding.scene.checks_loads import LOAD_CHECKS
 from embedding.scene.checks_matter import MATTER_CHECKS
 from embedding.scene.checks_shell import SHELL_CHECKS
+from embedding.scene.loads import Loads
 from embedding.scene.messages import key_path, quoted
 from embedding.scene.output import output_problems
 from embedding.scene.part import Unavailable, known
@@ -29,7 +30,7 @@ Check = Callable[["Scene"], Iterator[Problem]]
 def cross_problems(scene: Scene) -> tuple[Problem, ...]:
     """Everything that does not fit together; checks on fields that are themselves wrong are left out."""
     found: list[Problem] = []
-    for check in (*SHELL_CHECKS, *LOAD_CHECKS, _volume_control, *IN_SPACE, *MODEL_CHECKS):
+    for check in (*SHELL_CHECKS, *LOAD_CHECKS, _volume_control, _idle, *IN_SPACE, *MODEL_CHECKS):
         try:
             for problem in check(scene):
                 found.append(problem)
@@ -50,6 +51,26 @@ def _volume_control(scene: Scene) -> Iterator[Problem]:
         for name in scene.loads.pressure_fields:
             reason = f"loads.{name} varies over the surface, and volume control needs uniform pressures"
             yield Problem(path, f"not allowed: {reason}")
+
+
+def _idle(scene: Scene) -> Iterator[Problem]:
+    """A stage that changes no load and is to end at a displacement: nothing would bring a point there."""
+    begin: tuple[float, float] | None = (0.0, 0.0)
+    for number, stage in enumerate(scene.path):
+        end = (stage.mechanical, stage.field)
+        known_end = known(stage.until) is None and known(stage.volume_ratio) is None
+        if begin is not None and known(stage.until) is not None and not _driven(scene, begin, end):
+            reason = "the stage changes no load and no field, so that nothing moves the point"
+            yield Problem(f"path.{number}.until", f"not allowed: {reason}")
+        begin = end if known_end else None  # the load at a displacement or a volume is not known before
+
+
+def _driven(scene: Scene, begin: tuple[float, float], end: tuple[float, float]) -> bool:
+    """Does anything change with the factors of loads and field from ``begin`` to ``end``?"""
+    loaded = scene.loads != Loads(rim=scene.loads.rim, variant=scene.loads.variant)
+    loaded = loaded or any(any(support.displacement) for support in scene.supports)
+    with_field = known(scene.ambient) is not None
+    return (loaded and begin[0] != end[0]) or (with_field and begin[1] != end[1])
 
 
 def _reduction(scene: Scene) -> Iterator[Problem]:

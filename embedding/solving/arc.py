@@ -8,11 +8,12 @@ from dataclasses import replace
 from typing import Any
 
 from embedding.scene import Stage
+from embedding.scene.path import Until
 from embedding.solving.branches import onto_branch
 from embedding.solving.continuation import Condition, Corrector, Direction, Metric
 from embedding.solving.critical import Critical, Search
 from embedding.solving.curve import Point
-from embedding.solving.diagnosis import crowded, limit_reason
+from embedding.solving.diagnosis import FOLLOWED, crowded, limit_reason
 from embedding.solving.events import Iteration
 from embedding.solving.memory import Memory, of_target, point_of
 from embedding.solving.path import Target
@@ -110,6 +111,8 @@ class ArcStage:
     def _why(self, reason: Result) -> Result:
         """The true reason behind that of the last step: a load beyond its limit is not reached, however far the path
         goes on behind that."""
+        if reason in FOLLOWED and self.stage.until is not None:
+            self.session.detail = self._missed(self.stage.until)
         if reason not in LOST:
             return reason
         session, walk = self.session, self._walk
@@ -122,6 +125,13 @@ class ArcStage:
         found, detail = crowded(session.problem, reason)
         session.detail = detail or session.detail
         return found
+
+    def _missed(self, until: Until) -> str:
+        """In words: how far the point has come that the stage is to end with."""
+        end, length = self._goals()[-1], self.session.problem.scales.length
+        moved = length * end.value(self.path.values(), self.path.parameter)
+        gone = f"the point of until is at {moved:.4g} m along {until.axis}, of {until.value:.4g} m asked for"
+        return f"{gone}; see whether it, its axis and its sign are those meant"
 
     def _follow(self) -> Result:
         walk = self._walk or self._launch()

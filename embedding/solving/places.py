@@ -15,6 +15,9 @@ from embedding.scene.path import Until
 from embedding.solving.continuation import Array
 from embedding.solving.problem import Problem
 
+NOTHING = 1e-9
+"""Weights that rounding leaves of those that vanish at a point."""
+
 
 def displacement_row(problem: Problem, until: Until, number: int) -> Array:
     """Weights of the unknowns of u in the displacement that ``until``, of stage ``number``, names.
@@ -22,7 +25,7 @@ def displacement_row(problem: Problem, until: Until, number: int) -> Array:
     With mirror planes the point may lie on either side of them.
 
     Raises:
-        SceneError: the point is not on the mid-surface, or the reduction does not show the axis.
+        SceneError: the point is not on the mid-surface, or held along the axis, or the reduction does not show that.
     """
     components, trace = problem.domain.reduction.components(until.axis), problem.system.unknowns.trace
     if not components:
@@ -30,7 +33,12 @@ def displacement_row(problem: Problem, until: Until, number: int) -> Array:
     numbers, weights = _weights(problem, until.where, f"path.{number}.until.where")
     row = np.zeros((trace.components, trace.space.ndof // trace.components))
     row[components[0], numbers] = weights[components[0]]
-    return row.ravel()
+    weights_of_all = row.ravel()
+    prescribed = problem.system.physics.prescribed  # a support may take the point along
+    if not prescribed and abs(weights_of_all[trace.free]).max(initial=0.0) < NOTHING:
+        reason = f"a support or a symmetry of the plan holds this point along {until.axis}"
+        raise SceneError([SceneProblem(f"path.{number}.until", f"not allowed: {reason}")])
+    return weights_of_all
 
 
 class Tracked:

@@ -38,7 +38,8 @@ class Result(Enum):
     )
     MAX_ARC = (
         "the path was followed for the longest way allowed without meeting the end of the stage: past a limit point "
-        "the load may never be reached. Allow a longer way (solver.max_arc), or end the stage at a displacement (until)"
+        "the load may never be reached. Allow a longer way (solver.max_arc), "
+        "or end the stage at a displacement it reaches (until)"
     )
     FIELD_VANISHED = (
         "the path went back to where the field vanishes: past a limit point what the stage prescribes is not reached. "

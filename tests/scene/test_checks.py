@@ -16,6 +16,8 @@ MAGNETIC = {"field": "magnetic"}
 DIELECTRIC = {"relative_permittivity": 3.0}
 SLIT = {"kind": "annulus", "inner_radius": 0.01, "outer_radius": 0.02, "slit": True}
 NOT_AXISYMMETRIC = 'the x and y components must be 0 when model.reduction is "axisymmetric"'
+END = {"where": [0, 0, 0], "axis": "z", "value": 1}
+IDLE = "not allowed: the stage changes no load and no field, so that nothing moves the point"
 ONLY_RADIUS = 'must depend on x and y through x**2 + y**2 only when model.reduction is "axisymmetric"'
 
 
@@ -53,6 +55,9 @@ def traction(edge: str, *components: float) -> dict[str, Any]:
         ("infinite-cylinder", {"ambient": {"field": "electric", "applied_field": [1, 0, 5]}, "of_shell": DIELECTRIC}, "ambient.applied_field.2: 5.0 V/m is not allowed: must be 0 along the axis of an infinite cylinder"),
         ("infinite-cylinder", {"ambient": {"field": "magnetic", "applied_field": [1, 0, 5]}, "of_shell": {"relative_permeability": 2}}, "ambient.applied_field.2: 5.0 A/m is not allowed: must be 0 along the axis of an infinite cylinder"),
         ("plate", {"path": [{}, {"volume_ratio": 2}]}, 'path.1.volume_ratio: not allowed for a shape of kind "plate": only closed shells enclose a volume'),
+        ("plate", {"path": [{"until": END}]}, f"path.0.until: {IDLE}"),
+        ("plate", {"path": [{"mechanical": 0.0, "until": END}], "loads": {"pressure_bottom": 1}}, f"path.0.until: {IDLE}"),
+        ("plate", {"path": [{}, {"until": END}], "loads": {"pressure_bottom": 1}}, f"path.1.until: {IDLE}"),
         ("sphere", {"path": [{"volume_ratio": 2}], "loads": {"pressure_bottom": {"expression": "z"}}}, "path.0.volume_ratio: not allowed: loads.pressure_bottom varies over the surface, and volume control needs uniform pressures"),
         ("sphere", {"ambient": ELECTRIC, "of_shell": DIELECTRIC | {"shape": SLIT}}, "ambient: not allowed around a slit ring: there is no space between the lips of the slit"),
         ("t-section", {"ambient": ELECTRIC, "of_shell": DIELECTRIC}, 'ambient: not allowed around a shape of kind "t-section": more than two plates meet in its junction, and the space between them has no top and bottom'),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -176,6 +177,22 @@ def test_an_end_in_displacement_is_where_the_shell_is() -> None:
     stage = {"until": {"where": [0.0, 0.0, 2 * R], "axis": "z", "value": R}}
     with pytest.raises(SceneError, match="away from the mid-surface"):
         followed(path=[stage])
+
+
+def test_a_point_that_does_not_get_there_is_told() -> None:
+    """A balloon that grows never brings its pole inwards."""
+    solution = followed(path=[{"until": pole(0.9)}], solver={"max_steps": 3}, discretisation={})
+    assert solution.result is Result.MAX_STEPS
+    told = re.search(r"the point of until is at (\S+) m along z, of -0.002 m asked for", solution.message)
+    assert told is not None
+    assert float(told[1]) == pytest.approx((solution["stretch"][-1] - 1) * R, rel=1e-2)
+
+
+@pytest.mark.parametrize(("where", "axis"), [([0.0, 0.0, 0.0], "y"), ([0.0, 0.0, 0.0], "x")])
+def test_a_point_that_is_held_goes_nowhere(where: list[float], axis: str) -> None:
+    stage = column(None).path[0].model_copy(update={"until": Until(where=where, axis=axis, value=0.1)})  # type: ignore[arg-type]
+    with pytest.raises(SceneError, match=f"path.0.until: not allowed: a support or a symmetry .* along {axis}"):
+        run(column(None).model_copy(update={"path": (stage,)}))
 
 
 def test_given_displacements_are_followed() -> None:
