@@ -20,6 +20,7 @@ from embedding.solving.branches import BranchAsked
 from embedding.solving.continuation import Condition, at_parameter
 from embedding.solving.diagnosis import out_of_theory
 from embedding.solving.estimate import default_quantity, estimate_errors
+from embedding.solving.estimate.estimate import COUNTED
 from embedding.solving.events import Listener
 from embedding.solving.health import check_health
 from embedding.solving.memory import Kept
@@ -108,13 +109,15 @@ class Run(Session):
         return max(found, key=lambda error: error.value, default=None)
 
     def _refuse_unknown_scalars(self) -> None:
-        """Refuse an accuracy of scalars that no step of this scene has."""
-        there = self.state.scalars() if self._asked else {}
+        """Refuse an accuracy of scalars that no step of this scene has, or that have none."""
+        there = [name for name in self.state.scalars() if name not in COUNTED] if self._asked else []
         problems = []
         for number, name in enumerate(self._asked):
             if name not in there:
                 guess = nearest(name, there)
                 hint = f'did you mean "{guess}"?' if guess else f"this scene has {', '.join(there)}"
+                if name in COUNTED:
+                    hint = f"it describes the run and not the answer; this scene has {', '.join(there)}"
                 problems.append(SceneProblem(f"accuracy.of.{number}", f"{name} is not allowed: {hint}"))
         if problems:
             raise SceneError(problems)

@@ -127,13 +127,16 @@ def test_ladders() -> None:
     assert next_level(membrane, Level(len(ladder(membrane)) - 1), 2.0, at_edges=False) is None
 
 
+class Counting(Listener):
+    """Counts the solves that begin."""
+
+    started_runs = 0
+
+    def started(self, problem: object) -> None:
+        self.started_runs += 1
+
+
 def test_listeners_hear_every_attempt() -> None:
-    class Counting(Listener):
-        started_runs = 0
-
-        def started(self, problem: object) -> None:
-            self.started_runs += 1
-
     counting = Counting()
     found = solve(load_scene(circular_membrane.SCENE, ("path=[{}]", "accuracy=1e-6")), listeners=[counting])
     assert counting.started_runs == len(found.attempts)
@@ -145,6 +148,19 @@ def test_bad_accuracies_are_refused() -> None:
             charged_balloon.scene(wrong)
     with pytest.raises(SceneError, match=r'accuracy\.of\.0: charg is not allowed: did you mean "charge"'):
         charged_balloon.run("accuracy={relative=1e-2, of=['charg']}")
+
+
+@pytest.mark.parametrize("name", ["held_force", "min_jacobian", "remeshings", "unstable_modes"])
+def test_what_has_no_error_is_refused_before_anything_is_solved(name: str) -> None:
+    """Numbers that say how the run went: no mesh makes them more accurate."""
+    counting = Counting()
+    scene = charged_balloon.scene(f"accuracy={{relative=1e-2, of=['stretch', '{name}']}}")
+    message = rf"accuracy.of.1: {name} is not allowed: it describes the run and not the answer; this scene has str"
+    with pytest.raises(SceneError, match=message) as error:
+        solve(scene, listeners=[counting])
+    allowed = str(error.value).partition("this scene has ")[2].split(", ")
+    assert "charge" in allowed and name not in allowed
+    assert counting.started_runs == 0
 
 
 def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
