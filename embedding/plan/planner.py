@@ -19,6 +19,20 @@ from embedding.plan.theory import choose_locking, choose_theory, judge_thinness
 from embedding.scene import NeoHookean, Scene
 from embedding.scene.checks_electrodes import one_conductor
 
+OF_SPACE: dict[Extent, tuple[str, ...]] = {
+    "none": ("interface", "coupling", "far_field", "surroundings"),
+    "given": ("interface", "far_field", "surroundings"),
+    "inside": ("interface", "far_field"),
+    "surroundings": (),
+}
+"""Choices of the model that say nothing where so much of the field is modelled."""
+WITHOUT: dict[Extent, str] = {
+    "none": "no field is modelled",
+    "given": "nothing around the shell is meshed",
+    "inside": "nothing around the shell is meshed",
+    "surroundings": "space ends at a grounded boundary",
+}
+
 
 def explain(scene: Scene) -> Plan:
     """What will be modelled for ``scene``, what is left out, and why; meshes and solves nothing.
@@ -46,7 +60,7 @@ def explain(scene: Scene) -> Plan:
     coupling = choose_coupling(scene, extent, effects, allowance)
     between = (coupling,) if coupling else ()
     loads = _loads(scene, effects, allowance)
-    rest = (loads, *_rigid(scene, reduction), *field, *between, *mesh, _order(scene, extent))
+    rest = (loads, *_rigid(scene, reduction), *field, *between, *mesh, _order(scene, extent), *_unused(scene, extent))
     locking = choose_locking(scene) if bending else None
     thin = judge_thinness(scene, effects, allowance, bending=bending)
     decisions = (first, *_closed_form(effects), theory, thin, *([locking] if locking else []), *rest)
@@ -103,6 +117,18 @@ def _rigid(scene: Scene, reduction: Reduction) -> tuple[Decision, ...]:
         return ()
     reason = "free rigid motions are held by a uniform dead force; its size is recorded (held_force)"
     return (Decision("rigid motion", "held", reason),)
+
+
+def _unused(scene: Scene, extent: Extent) -> tuple[Decision, ...]:
+    """The choices that the scene pins for a field that is not there, or that ends otherwise."""
+    names = list(OF_SPACE[extent])
+    if extent == "surroundings" and scene.ambient is not None and scene.ambient.outer == "grounded":
+        names.append("far_field")
+    pinned = [f"model.{name}" for name in names if getattr(scene.model, name) != "auto"]
+    if not pinned:
+        return ()
+    reason = f"pinned by the scene, and without effect: {WITHOUT[extent]}"
+    return (Decision("not used", ", ".join(pinned), reason),)
 
 
 def _order(scene: Scene, extent: Extent) -> Decision:

@@ -72,6 +72,19 @@ def test_what_is_pinned_stays(model: dict[str, str], topic: str, choice: str, ac
     assert "pinned by the scene" in found.reason
 
 
+@pytest.mark.parametrize("pinned", ["interface=closed", "coupling=once", "far_field=infinite", "surroundings=meshed"])
+def test_what_is_pinned_without_a_field_is_told(pinned: str) -> None:
+    """It says nothing of a shell alone; with the field it does, but for open space where a ground ends it."""
+    name, value = pinned.split("=")
+    model = {name: value}
+    found = decided(explain(scene(loads=WEAK["loads"], model=model)), "not used")
+    assert found.choice == f"model.{name}" and "no field is modelled" in found.reason
+    assert not [one for one in explain(scene(**WEAK, model=model)).decisions if one.topic == "not used"]
+    ground = {**WEAK, "ambient": {**WEAK["ambient"], "outer": "grounded"}, "model": model}
+    ended = [one.choice for one in explain(scene(**ground)).decisions if one.topic == "not used"]
+    assert ended == (["model.far_field"] if name == "far_field" else [])
+
+
 def test_a_path_that_is_followed_is_solved_jointly() -> None:
     """By arc length, as stages are without ``steps``: only the joint tangent knows where to go."""
     given = {**WEAK, "accuracy": COARSE, "model": {"surroundings": "meshed"}}
