@@ -199,10 +199,14 @@ class AmbientMotion:
 
     def _settle(self, faces: Array) -> bool:
         """Move the faces, and the interior as the tangent at hand predicts; relax it where that is not good enough."""
-        known = self._inverse is not None and self._is_current(faces)
+        start, known = self.save(), self._inverse is not None and self._is_current(faces)
         if not known:
             self._assemble(self._face())
         before = self._predict(faces)
+        if before is None and known:  # the matrix may be that of a wild guess, with an interior of its own
+            self.restore(start)
+            self._assemble(self._face())
+            before = self._predict(faces)
         if before is None:
             return False
         if self._is_current(faces) and self._remainder() < SERVES * before and self.min_jacobian > COMFORTABLE:

@@ -60,7 +60,13 @@ def _seen(path: ShellPath, corrector: Corrector) -> Ahead:
             path.restore(turns[0].point.saved if turns else walk.here.saved)
             if mostly_compressed(problem):
                 return Ahead(compressed=region_in_compression(problem, State(problem)))
-            return Ahead(path.target(turns[0].parameter if turns else max(before.parameter, walk.here.parameter)))
+            if turns:
+                return Ahead(path.target(turns[0].parameter))
+            turned = max(before.parameter, walk.here.parameter)
+            walk.retract()
+            if not walk.shorten(Result.STEP_BELOW_MINIMUM):  # it is there, if not in digits
+                return Ahead(path.target(turned))
+            continue
         if strongly_compressed(problem):
             return Ahead(compressed=region_in_compression(problem, State(problem)))
         if walk.done:

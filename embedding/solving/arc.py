@@ -177,10 +177,9 @@ class ArcStage:
             faded = self.path.faded
             self.path.restore(walk.here.saved)
             if reason is Result.INVERTED_AMBIENT and self.session.tired:
-                walk, moved = self._remeshed(walk)
-                reason = None if moved else reason
-            if reason is not None:
-                return Result.FIELD_VANISHED if faded else reason
+                walk, _ = self._remeshed(walk)  # where there is no new mesh, shorter steps are tried on this one
+                continue
+            return Result.FIELD_VANISHED if faded else reason
         return walk
 
     def _remeshed(self, walk: Walk) -> tuple[Walk, bool]:

@@ -26,6 +26,10 @@ WHOLE, SMALL = 1.0, 1e-4
 displacements are not."""
 
 
+ROUNDING = float(np.finfo(float).eps)
+"""A square of the field that is negative by no more than this part of the largest is that of no field."""
+
+
 class ShellPath:
     """The shell of ``problem`` on the way from ``start`` to ``end``; see :class:`Equilibrium`."""
 
@@ -54,7 +58,7 @@ class ShellPath:
     def move(self, values: Array, parameter: float, *, curved: bool = False) -> bool:
         """Go to another state; False (and nothing moved) if elements of the ambient would turn over, or if there is no
         such state for want of a field (``faded``)."""
-        self.faded = self._square(parameter) < 0.0
+        self.faded = self._square(parameter) < -ROUNDING * max(self.start.field**2, self.end.field**2)
         if self.faded:
             return False
         before = self.values(), self._parameter

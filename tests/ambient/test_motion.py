@@ -60,6 +60,18 @@ def test_an_impossible_motion_is_refused_and_nothing_moves(name: str) -> None:
     assert np.array_equal(state_of(motion), before)
 
 
+@pytest.mark.parametrize("name", BODIES)
+def test_a_matrix_of_a_wild_shape_is_not_held_on_to(name: str) -> None:
+    """As a step leaves it that was given up: the face is near, the interior was turned over."""
+    domain, motion, face, free = moving(name)
+    wild = np.random.default_rng(1).uniform(-1.0, 1.0, motion.w.space.ndof) * np.array(motion.free)
+    motion.recall(np.concatenate([np.zeros_like(motion.y["outside"].vec.FV().NumPy()), wild]))
+    assert motion.min_jacobian == pytest.approx(1.0)
+    set_on_shell(face, grown(domain, 1.1), free, domain)
+    assert motion.follow(moved_to(face, motion))
+    assert motion.min_jacobian > 0.5
+
+
 def test_a_face_that_hardly_moves_leaves_the_interior_at_rest() -> None:
     """Newton's method is quadratic only where w stands still: below a thousandth of the mesh size it does."""
     domain, motion, face, free = moving("octant")

@@ -76,3 +76,12 @@ def test_a_state_without_a_real_field_is_none() -> None:
     assert not path.move(before, -0.1) and path.faded
     assert path.parameter == 0.1 and np.array_equal(path.values(), before)
     assert path.move(before, 0.05) and not path.faded
+
+
+def test_no_field_but_for_rounding_is_no_field() -> None:
+    """An update of the parameter that rounding made may lead below 0, where there is no field any more."""
+    path = path_of("conductor", "linear", NONE, FULL)
+    values = path.values()
+    assert path.move(values, -1e-20) and not path.faded
+    assert path.target(path.parameter).field == 0.0
+    assert not path.move(values, -1e-3) and path.faded

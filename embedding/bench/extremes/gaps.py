@@ -1,10 +1,27 @@
-"""Gaps between a shell and an electrode beside it, from the shell's size to 1e-5 of it."""
+"""Gaps between a shell and an electrode beside it, from the shell's size to 1e-4 of it: shells that are held, and such
+that the field pulls across the gap."""
 
 from __future__ import annotations
 
 from functools import partial
 
-from embedding.bench.extremes.cell import Cell
+from embedding.bench.extremes.cell import FAILED, Cell
+from embedding.bench.extremes.electrodes import (
+    DISC,
+    LENGTH,
+    PELESKO,
+    STRIP,
+    PullIn,
+    balloon,
+    balloon_at,
+    balloon_pull_in,
+    disc,
+    limit_of,
+    of_fringes,
+    reached,
+    strip,
+    until,
+)
 from embedding.bench.extremes.fields import SPHERE, conductor, disc_charge_over, sphere_charge
 from embedding.scene import Scene
 
@@ -12,7 +29,12 @@ GAPS = (1.0, 1e-1, 1e-2, 1e-3, 1e-4)
 
 
 def cells() -> list[Cell]:
-    """Concentric spheres, and a disc over a plane."""
+    """Concentric spheres and a disc over a plane, held; a balloon in a sphere, and sheets over a plane, pulled."""
+    return [*held(), *balloons(), *membranes()]
+
+
+def held() -> list[Cell]:
+    """Charges of conductors that keep their shape."""
     found: list[Cell] = []
     for gap in GAPS:
         found.append(
@@ -29,6 +51,65 @@ def cells() -> list[Cell]:
                 )
             )  # fmt: skip
     return found
+
+
+def balloons() -> list[Cell]:
+    """A charged membrane in a grounded sphere, of which it crosses a third before it is pulled in."""
+    source = "the charged membrane in a grounded sphere"
+    below, beyond = (f"balloon in a grounded sphere, {part} V_p" for part in ("0.99", "1.0001"))
+    steps = [{"control": "load", "steps": 10}]
+    return [
+        cell
+        for gap in GAPS
+        for cell in (
+            Cell(
+                "gaps", below, f"{gap:.0e}", partial(balloon, gap, 0.99, steps), partial(balloon_at, gap, 0.99),
+                source, tolerance=2e-4, slow=gap != 1e-2, seconds=600.0,
+            ),
+            Cell(
+                "gaps", beyond, f"{gap:.0e}", partial(balloon, gap, 1.0001, steps), partial(_voltage_of, gap), source,
+                tolerance=2e-4, answers=reached, reasons=frozenset({"PULL_IN"}), expected=FAILED, slow=True,
+                seconds=600.0,
+            ),
+        )
+    ]  # fmt: skip
+
+
+def _voltage_of(gap: float) -> dict[str, float]:
+    return {"voltage": balloon_pull_in(gap)["voltage"]}
+
+
+def membranes() -> list[Cell]:
+    """Limit points of tensioned membranes against the thin gap, and a gap for which there is no closed form."""
+    slack = Cell(
+        "gaps", "stretched strip over a plane", "1e+00", partial(strip, 1.0, 20.0, [{"control": "load", "steps": 10}]),
+        source="no closed form: the strip is pulled out more than down", reasons=frozenset({"PULL_IN"}),
+        expected=FAILED, slow=True, seconds=300.0,
+    )  # fmt: skip
+    found = [slack]
+    for gap in (1e-1, 1e-2, 1e-3):  # a mesh between a strip and a plane 1e-4 away has a million unknowns
+        found.append(
+            Cell(
+                "gaps", "stretched strip over a plane", f"{gap:.0e}",
+                partial(strip, gap, 1.1, until("y", 0.44 * gap * LENGTH)), partial(_limit, STRIP, "y", gap),
+                PELESKO, tolerance=of_fringes(gap), answers=limit_of, slow=gap < 0.05, seconds=600.0,
+            )
+        )  # fmt: skip
+    for gap in (1e-1, 1e-2):
+        found.append(
+            Cell(
+                "gaps", "stretched disc over a plane", f"{gap:.0e}",
+                partial(disc, gap, 1.1, until("z", 0.5 * gap * LENGTH)), partial(_limit, DISC, "z", gap),
+                PELESKO, tolerance=of_fringes(gap), answers=limit_of, slow=gap < 0.05, seconds=300.0,
+            )
+        )  # fmt: skip
+    return found
+
+
+def _limit(limit: PullIn, axis: str, gap: float) -> dict[str, float]:
+    scene = strip(gap, 1.0, []) if axis == "y" else disc(gap, 1.0, [])
+    assert scene.faces.both is not None and scene.faces.both.voltage is not None
+    return {"voltage": scene.faces.both.voltage, f"u_middle_{axis}": -limit.centre * gap * LENGTH}
 
 
 def _sphere(gap: float) -> dict[str, float]:
