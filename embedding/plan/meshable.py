@@ -1,12 +1,11 @@
 """What no mesh generator can do, said before it is tried: it would crash, or never come back.
 
 The geometry kernel takes points closer than 1e-7 for the same one (Open CASCADE, Precision::Confusion), in coordinates
-in which the shape has size 1; and a mesh has to fit into a memory.
+in which the shape has size 1.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from embedding.errors import Problem, SceneError
@@ -19,13 +18,11 @@ SMALLEST = 1e-5
 """Of anything that has a surface, in shell sizes: a hundred times what the kernel can tell apart."""
 LARGEST = 1e6
 """Of the space around the shell, in shell sizes."""
-MOST = 3e7
-"""Elements of a mesh: some 100 GB for the simplest of them."""
 
 
-def refuse_what_cannot_be_meshed(scene: Scene, sizes: MeshSizes, dimension: int) -> None:
-    """Raises SceneError if the shape, the space around it or elements in ``dimension`` are out of all proportion."""
-    problems = tuple(_shape(scene)) or (*_space(scene, sizes), *_elements(scene, sizes, dimension))
+def refuse_what_cannot_be_meshed(scene: Scene, sizes: MeshSizes) -> None:
+    """Raises SceneError if the shape, the space around it or elements are out of all proportion."""
+    problems = tuple(_shape(scene)) or (*_space(scene, sizes), *_elements(scene, sizes))
     if problems:
         raise SceneError(problems)
 
@@ -62,20 +59,16 @@ def _lengths(body: Body) -> list[float]:
     return [length for length in (body.radius, body.length, *body.size) if length > 0.0]
 
 
-def _elements(scene: Scene, sizes: MeshSizes, dimension: int) -> Iterator[Problem]:
-    """Elements that a mesh of these sizes has at least; those that grow between them are but a few times as many."""
-    unit, least = scene.shell.shape.size, scene.shell.shape.narrowest / scene.shell.shape.size
-    named = [("discretisation.shell_size", sizes.shell, (least / sizes.shell) * sizes.shell ** (2 - dimension))]
-    for edge, size in sizes.edges:
-        named.append((key_path(("discretisation", "edge_size", edge)), size, least / size if dimension == 3 else 1.0))
+def _elements(scene: Scene, sizes: MeshSizes) -> Iterator[Problem]:
+    """Elements that the kernel could not tell apart; whether there is memory for all of them is asked when their number
+    is known (:mod:`embedding.geometry.counting`)."""
+    unit = scene.shell.shape.size
+    named = [("discretisation.shell_size", sizes.shell)]
+    named += [(key_path(("discretisation", "edge_size", edge)), size) for edge, size in sizes.edges]
     if sizes.radius > 0.0:
-        span = math.prod(sizes.box[:dimension]) if sizes.box is not None else sizes.radius**dimension
-        named.append(("discretisation.ambient_size", sizes.far, span / sizes.far**dimension))
-    for path, size, count in named:
-        if count > MOST:
-            reason = f"the mesh would have more than {count:.1e} elements, and may have {MOST:.0e}"
-            yield Problem(path, f"{size * unit:.3g} m is not allowed: {reason}")
-        elif size < SMALLEST:
+        named.append(("discretisation.ambient_size", sizes.far))
+    for path, size in named:
+        if size < SMALLEST:
             yield Problem(path, f"{size * unit:.3g} m is not allowed: must be at least {SMALLEST * unit:.3g} m")
 
 

@@ -45,7 +45,7 @@ def explain(scene: Scene) -> Plan:
     odd = odd_planes(scene, reduction)
     extent, field = choose_extent(scene, effects, allowance)
     sizes, mesh = choose_sizes(scene, reduction.name, effects, allowance, meshed=extent == "surroundings")
-    refuse_what_cannot_be_meshed(scene, sizes, reduction.dimension)
+    refuse_what_cannot_be_meshed(scene, sizes)
     opened: tuple[str, ...] = ()
     if extent == "surroundings":
         opened, faces = choose_interface(scene, rim_size(scene, sizes), effects, allowance)
