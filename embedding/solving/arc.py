@@ -10,6 +10,7 @@ from typing import Any
 from embedding.scene import Stage
 from embedding.scene.path import Until
 from embedding.solving.branches import onto_branch
+from embedding.solving.compression import compressed_from_rest
 from embedding.solving.continuation import Condition, Corrector, Direction, Metric
 from embedding.solving.critical import Critical, Search
 from embedding.solving.curve import Point
@@ -122,6 +123,11 @@ class ArcStage:
             found = limit_reason(session.problem, self.begin, self.end)
             session.detail = f"beyond its limit point the path was followed back to where {ENDED[reason]}"
             return found
+        if session.at_rest:
+            region = compressed_from_rest(session.problem, session.at, self.end)
+            if region is not None:
+                session.detail = region
+                return Result.COMPRESSIVE_MEMBRANE
         found, detail = crowded(session.problem, reason)
         session.detail = detail or session.detail
         return found

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from ngsolve import ET, IfPos, IntegrationRule
 
+from embedding.coupling.linear import LinearSolverError
+from embedding.solving.path import Target
 from embedding.solving.problem import Problem
 from embedding.solving.state import State
 
@@ -17,6 +20,8 @@ none."""
 TENTH = 0.1
 """A place belongs to the region in compression from a tenth of that on, or of what is found where it is worst: beside
 the threshold a uniform compression would be told to be where the mesh happens to make it largest."""
+START = 1e-6
+"""A displacement, in shell sizes, that is linear in the load; and a small part of a stage."""
 MOST = 0.5
 """Share of the area in compression that is most of it."""
 
@@ -43,6 +48,26 @@ def mostly_compressed(problem: Problem) -> bool:
     """Is most of a membrane in compression, however little, where nothing keeps it from wrinkling? Its equilibria are
     none of a membrane then: it turns and bifurcates as its mesh has it."""
     return may_wrinkle(problem) and _share(problem, State(problem), ROUNDING) > MOST
+
+
+def compressed_from_rest(problem: Problem, here: Target, towards: Target) -> str | None:
+    """Where the load ``towards`` compresses a membrane that is at rest at the load ``here``, by its linear response, if
+    that is most of it; the state is left as it was."""
+    system = problem.system
+    saved, ahead = system.save(), towards.between(here, START)
+    system.load(ahead.mechanical, ahead.field, ahead.volume, ahead.pressure)
+    try:
+        step, _ = system.newton_update()
+        size = system.displacement_norm(step)
+        if not 0.0 < size < math.inf:
+            return None
+        system.unknowns.state.vec.data += START / size * step
+        return region_in_compression(problem, State(problem)) if mostly_compressed(problem) else None
+    except LinearSolverError:
+        return None
+    finally:
+        system.restore(saved)
+        system.load(here.mechanical, here.field, here.volume, here.pressure)
 
 
 def region_in_compression(problem: Problem, state: State) -> str:

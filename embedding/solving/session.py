@@ -196,6 +196,8 @@ class Session:
     ) -> Result | None:
         """Record the present, converged state as the next step; a reason if it is not to be kept."""
         scalars = self.state.scalars() | self.solver.scalars
+        if not self.problem.plan.bending and scalars.get("volume_ratio", 1.0) <= 0.0:
+            return Result.STEP_BELOW_MINIMUM  # inside out: no path of a membrane leads there
         if compressed(self.problem, scalars):
             self.detail = region_in_compression(self.problem, self.state)
             return Result.COMPRESSIVE_MEMBRANE
