@@ -73,3 +73,11 @@ def test_slit_annulus_converges_at_order_three() -> None:
         unknowns.append(path.solution.cost.unknowns["u"] ** -0.5)
         errors.append(abs(path.end("inner") - 13.8450))
     assert orders(unknowns, errors)[0] > 2.7
+
+
+def test_the_error_where_three_sheets_meet() -> None:
+    """What the rotation at the junction is measured from goes along to the next order."""
+    planned, fine = t_cantilever.run().solution, t_cantilever.run("discretisation.order=4").solution
+    assert planned.error is not None
+    true = abs(planned["displacement"][-1] / fine["displacement"][-1] - 1.0)
+    assert 0.5 * true < planned.error.discretisation < 5.0 * true

@@ -214,6 +214,16 @@ class SurfaceBending:
         """Take the averaged normal from the present state, given by its ``kinematics`` on grid functions."""
         self._average_of(kinematics.area_vector, self._average)
 
+    def continue_from(self, other: SurfaceBending) -> None:
+        """Measure rotations from where ``other``, of another order on the same mesh, does: where more than two sheets
+        meet, they depend on it."""
+        mine, others = (bending._average for bending in (self, other))
+        mine.vec[:] = 0.0
+        for edge in np.flatnonzero(self.domain.facets.neighbours > 0):
+            for component in range(3):  # the polynomials on an edge are hierarchical
+                new, old = (unknowns_on(field.space, np.array([edge]), (component,)) for field in (mine, others))
+                mine.vec.FV().NumPy()[new[: len(old)]] = others.vec.FV().NumPy()[old]
+
     def _average_of(self, normal: Any, target: GridFunction) -> None:
         target.Set(normal, dual=True, definedon=self.domain.shell)
         values = target.vec.FV().NumPy()

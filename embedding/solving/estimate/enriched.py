@@ -22,7 +22,7 @@ from embedding.coupling.system import System
 from embedding.coupling.unknowns import assembled_in_batches
 from embedding.geometry.domain import Domain
 from embedding.geometry.ends import unknowns_on
-from embedding.shell.bending import CurveBending
+from embedding.shell.bending import CurveBending, SurfaceBending
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem, physics_of
 from embedding.solving.state import State
@@ -64,8 +64,11 @@ class Enriched(Problem):
         for name in self.system.unknowns.names:
             self._carry(name, problem)
         counted, present = self.system.unknowns.bending, problem.system.unknowns.bending
-        if isinstance(counted, CurveBending) and isinstance(present, CurveBending):
-            counted.continue_from(present)
+        match counted, present:
+            case CurveBending(), CurveBending():
+                counted.continue_from(present)
+            case SurfaceBending(), SurfaceBending():
+                counted.continue_from(present)
         self.system.ambient_as_in(problem.system)
         self.system.restore(self.system.save())  # the state did not get here by Newton steps
         self.state = State(self)
