@@ -25,7 +25,7 @@ from embedding.solving.events import Listener
 from embedding.solving.health import check_health
 from embedding.solving.memory import Kept
 from embedding.solving.path import DEFAULT_STEPS, Target, followed, stage_target
-from embedding.solving.places import displacement_row
+from embedding.solving.places import displacement_row, refuse_held
 from embedding.solving.ramp import Ramp
 from embedding.solving.result import Result
 from embedding.solving.session import Session
@@ -146,7 +146,9 @@ class Run(Session):
         if stage.until is None:
             return [at_parameter(1.0)]
         row = np.zeros(self.problem.system.unknowns.space.ndof)
-        row[self.problem.system.unknowns.range("u")] = displacement_row(self.problem, stage.until, number)
+        weights = displacement_row(self.problem, stage.until, number)
+        refuse_held(self.problem, weights, stage.until, number)
+        row[self.problem.system.unknowns.range("u")] = weights
         value = stage.until.value / self.problem.scales.length
         if stage.control != "displacement":
             return [Condition(row, 0.0, value)]

@@ -25,7 +25,7 @@ def displacement_row(problem: Problem, until: Until, number: int) -> Array:
     With mirror planes the point may lie on either side of them.
 
     Raises:
-        SceneError: the point is not on the mid-surface, or held along the axis, or the reduction does not show that.
+        SceneError: the point is not on the mid-surface, or the reduction does not show the axis.
     """
     components, trace = problem.domain.reduction.components(until.axis), problem.system.unknowns.trace
     if not components:
@@ -33,12 +33,15 @@ def displacement_row(problem: Problem, until: Until, number: int) -> Array:
     numbers, weights = _weights(problem, until.where, f"path.{number}.until.where")
     row = np.zeros((trace.components, trace.space.ndof // trace.components))
     row[components[0], numbers] = weights[components[0]]
-    weights_of_all = row.ravel()
+    return row.ravel()
+
+
+def refuse_held(problem: Problem, row: Array, until: Until, number: int) -> None:
+    """Raises SceneError if the displacement with the weights ``row``, that ``until`` names, cannot change."""
     prescribed = problem.system.physics.prescribed  # a support may take the point along
-    if not prescribed and abs(weights_of_all[trace.free]).max(initial=0.0) < NOTHING:
+    if not prescribed and abs(row[problem.system.unknowns.trace.free]).max(initial=0.0) < NOTHING:
         reason = f"a support or a symmetry of the plan holds this point along {until.axis}"
         raise SceneError([SceneProblem(f"path.{number}.until", f"not allowed: {reason}")])
-    return weights_of_all
 
 
 class Tracked:
