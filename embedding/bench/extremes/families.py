@@ -8,7 +8,7 @@ from embedding.bench.extremes.cell import Cell
 
 FAMILIES = (
     "thickness", "stretch", "rotations", "limit_points", "units", "steps",
-    "ratios", "voltages", "remanence", "radii", "gaps", "meshes",
+    "ratios", "voltages", "strong_fields", "remanence", "radii", "gaps", "meshes",
 )  # fmt: skip
 """In the order of the map."""
 
