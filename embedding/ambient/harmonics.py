@@ -19,8 +19,9 @@ from embedding.geometry.domain import Domain
 def missed_by_robin(domain: Domain, decaying: Any, reach: float, *, odd: tuple[str, ...]) -> float:
     """By what part of itself Robin's condition changes the co-energy of the ``decaying`` part of the potential.
 
-    ``reach`` is how far its sources extend, in shell sizes: outside of it the energy grows inwards at least as that of
-    a net charge. Across the planes ``odd`` the potential changes its sign.
+    ``reach`` is how far its sources extend, in shell sizes: outside of it the energy of the harmonic of degree l grows
+    inwards as (l + 1) / r^(2 l + 1), in the plane as l / r^(2 l). Across the planes ``odd`` the potential changes its
+    sign.
     """
     weight, radius = domain.reduction.measure, domain.sizes.radius
     outer = domain.mesh.Boundaries("outer")
@@ -29,21 +30,26 @@ def missed_by_robin(domain: Domain, decaying: Any, reach: float, *, odd: tuple[s
     def integral(value: Any) -> float:
         return float(Integrate(weight * value, domain.mesh, definedon=outer, order=order))
 
-    basis = _exact(domain, odd)
+    exact = _exact(domain, odd)
+    basis, plane = [function for _, function in exact], domain.reduction.name == "plane-strain"
     gram = np.array([[integral(a * b) for b in basis] for a in basis])
     moments = np.array([integral(a * decaying) for a in basis])
     whole = integral(decaying * decaying)
-    left = max(0.0, whole - float(moments @ np.linalg.lstsq(gram, moments, rcond=1e-10)[0])) if basis else whole
+    shares = moments * np.linalg.lstsq(gram, moments, rcond=1e-10)[0] if basis else moments
+    left = max(0.0, whole - float(shares.sum()))
     if whole == 0.0:
         return 0.0
-    plane = domain.reduction.name == "plane-strain"
-    missed, least = (2.0 / 3.0, 1.0) if plane else (1.0, 1.0)
-    inward = (radius / reach) ** (2 if plane else 1)
-    return 0.5 * missed * left / (0.5 * least * whole * inward)
+    first = 3 if plane else 2  # the first degree for which the condition is not exact, and that of all that is left
+    degrees = np.array([*(degree for degree, _ in exact), first])
+    parts = np.maximum([*shares, left], 0.0)
+    inward = (radius / reach) ** (2 * degrees + (0 if plane else 1)) * (degrees if plane else degrees + 1)
+    missed = 2.0 / 3.0 if plane else 1.0
+    return missed * left / float(parts @ inward)
 
 
-def _exact(domain: Domain, odd: tuple[str, ...]) -> list[Any]:
-    """Functions on the outer boundary for which the condition is exact, of the symmetry of the potential."""
+def _exact(domain: Domain, odd: tuple[str, ...]) -> list[tuple[int, Any]]:
+    """Harmonics on the outer boundary for which the condition is exact, of the symmetry of the potential, and their
+    degrees."""
     place = domain.reduction.position - CF(domain.sizes.centre(domain.mesh.dim))
     place = place / sqrt(InnerProduct(place, place))
     axes = domain.reduction.axes
@@ -55,7 +61,7 @@ def _exact(domain: Domain, odd: tuple[str, ...]) -> list[Any]:
         functions = {(): CF(1.0)} | {(axis,): value for axis, value in along.items() if axis != "r"}
     planes = domain.reduction.planes
     return [
-        function
+        (2 if signs == () and domain.reduction.name == "plane-strain" else len(signs), function)
         for signs, function in functions.items()
         if all((axis in signs) == (axis in odd) for axis in planes)
     ]
