@@ -80,6 +80,9 @@ def _judged(scene: Scene, plan: Plan, level: Level, solution: Solution, relative
     """What to do after an attempt on ``level``."""
     if solution.result in CANNOT:
         return Verdict("", solution.result)
+    if solution.result.ok and solution.error is None:
+        of = ", ".join(scene.accuracy.of) if scene.accuracy is not None and scene.accuracy.of else "the answer"
+        return Verdict(f"{of}: 0, which has no relative error", Result.ACCURACY_NOT_REACHED)
     if not solution.result.ok or solution.error is None:
         lifted = raised(scene, solution.assumptions)
         if lifted != scene:

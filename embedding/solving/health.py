@@ -15,6 +15,8 @@ from ngsolve import BND, VOL, IfPos
 
 from embedding.geometry.positions import reference_position
 from embedding.solving.branches import BranchAsked
+from embedding.solving.compression import ROUNDING as NONE
+from embedding.solving.compression import may_wrinkle
 from embedding.solving.energies import last_step
 from embedding.solving.estimate import Estimates
 from embedding.solving.events import StepRecord
@@ -59,6 +61,8 @@ def _checks(problem: Problem, estimates: Estimates) -> Iterator[Check]:
         yield Check("limit point", response, "", f"<= {NEAR_LIMIT:g}", response <= NEAR_LIMIT, told)
     if problem.plan.bending:
         yield from of_bending(problem)
+    elif may_wrinkle(problem):
+        yield of_membrane(problem)
     if condition is not None:
         told = "largest over smallest eigenvalue of the tangent, to its order"
         yield Check("condition", condition, "", f"<= {SINGULAR:g}", condition <= SINGULAR, told)
@@ -80,17 +84,37 @@ def _residual(problem: Problem, loads: float) -> Check:
     return Check("residual", value, unit, f"<= {allowed:.1g} {unit}", value <= allowed, "nodal forces out of balance")
 
 
+def of_membrane(problem: Problem) -> Check:
+    """Compression in a membrane, against what its own bending stiffness would bear."""
+    value, allowed = _compression(problem)
+    told = "stress of compression over the shear modulus: beyond it a membrane buckles or wrinkles, which is not seen"
+    return Check("compression", value, "", f"<= {allowed:.1g}", value <= allowed, told)
+
+
+def _compression(problem: Problem) -> tuple[float, float]:
+    """The largest stress of compression in shear moduli, and half of that at which a shell buckles: a sphere at
+    2 mu T / R (classical, incompressible), a strip of length L at about 3 mu (T / L)^2."""
+    domain, slender = problem.domain, problem.scene.shell.thickest / problem.scales.length
+    allowed = slender**2 if domain.is_flat else slender / min(domain.curvature_radius, 1.0)
+    return max(0.0, -State(problem).smallest_stress), max(allowed, -NONE)
+
+
 def of_bending(problem: Problem) -> Iterator[Check]:
     """Regions in compression, and the layers along edges in which a curved shell bends."""
     state, domain = State(problem), problem.domain
+    curved = not domain.is_flat and math.isfinite(domain.curvature_radius)
+    layer = math.sqrt(domain.curvature_radius * problem.scene.shell.thickest / problem.scales.length) if curved else 0.0
     share = domain.shell_integral(IfPos(state.min_principal_stress, 0.0, 1.0)) / domain.area
+    value, allowed = _compression(problem)
+    seen = not curved or domain.sizes.shell / domain.sizes.order <= layer or value <= allowed
     told = "part of the area in compression, which bending stiffness carries: finer waves than elements are not seen"
-    yield Check("compression", share, "", "", True, told)
+    if not seen:
+        told += f", and a stress of {value:.1g} shear moduli makes waves of the length sqrt(R T)"
+    yield Check("compression", share, "", "" if seen else "in finer elements", seen, told)
     if not domain.rims:
         return
     size = max(domain.sizes.along(edge) for edge in domain.rims) / domain.sizes.order
-    if not domain.is_flat and math.isfinite(domain.curvature_radius):
-        layer = math.sqrt(domain.curvature_radius * problem.scene.shell.thickest / problem.scales.length)
+    if curved:
         told = "element along edges, over its order, against the bending layer sqrt(R T)"
         yield Check("bending layer", size / layer, "", "<= 1", size <= layer, told)
     turned = magnetic_layer(problem)

@@ -241,8 +241,13 @@ class State:
             "stretch": ratio / axial if plane else math.sqrt(ratio),
             "stretch_max": float(major.max()),
             "stretch_min": float(minor.min()),
-            "min_principal_stress": self._scales.stress * float(self._sample(self.min_principal_stress).min()),
+            "min_principal_stress": self._scales.stress * self.smallest_stress,
         }
+
+    @property
+    def smallest_stress(self) -> float:
+        """Smallest principal stress anywhere, dimensionless."""
+        return float(self._sample(self.min_principal_stress).min())
 
     def _sample(self, values: Any) -> Any:
         rule = IntegrationRule(ET.TRIG if self._domain.mesh.dim == 3 else ET.SEGM, 2 * self._domain.sizes.order)

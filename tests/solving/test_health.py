@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from embedding import Solution, load_scene, open_archive, solve
+from embedding import Scene, Solution, load_scene, open_archive, solve
 from embedding.cli import main
 from embedding.coupling.linear import LinearSolverError
 from embedding.plan import explain
@@ -27,7 +27,7 @@ def named(solution: Solution, topic: str) -> health.Check:
 def test_all_is_well_in_a_charged_balloon() -> None:
     solution = charged_balloon.run("path=[{steps=3}]")
     assert [one.topic for one in solution.health] == [
-        "residual", "space", "elements", "limit point", "condition", "energies",
+        "residual", "space", "elements", "limit point", "compression", "condition", "energies",
     ]  # fmt: skip
     assert all(one.good for one in solution.health)
     assert named(solution, "residual").unit == "N"
@@ -116,3 +116,16 @@ def test_info_tells_all_of_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]
     told = capsys.readouterr().out
     assert all(f"health: {one.topic}" in told for one in solution.health)
     assert "good, " in told and "\x1b" not in told
+
+
+@pytest.mark.parametrize("theory", ["membrane", "bending"])
+@pytest.mark.parametrize("pressure, good", [(20.0, True), (100.0, False)])
+def test_a_thin_sphere_pressed_from_outside(theory: str, pressure: float, good: bool) -> None:
+    """It buckles at 75.7 Pa, 2 E T^2 / (R^2 (3 (1 - nu^2))^(1/2)) (R. Zoelly, 1915), in waves that no element here
+    sees."""
+    solution = solve(Scene.model_validate({
+        "shell": {"shape": {"kind": "sphere", "radius": 0.02}, "thickness": 5e-6,
+                  "material": {"law": "st-venant-kirchhoff", "youngs_modulus": 1e9, "poisson_ratio": 0.3}},
+        "loads": {"pressure_top": pressure}, "path": [{"steps": 1}], "model": {"theory": theory},
+    }))  # fmt: skip
+    assert {check.topic: check.good for check in solution.health}["compression"] is good
