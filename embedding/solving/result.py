@@ -16,8 +16,8 @@ class Result(Enum):
     )
     PULL_IN = (
         "a limit point under the prescribed field: beyond it no equilibrium is near. "
-        'Follow the path beyond it (control = "arc-length" in a stage), control the charge in place of the voltage, '
-        "or stop at a lower field"
+        'Follow the path beyond it (control = "arc-length" in a stage), stop at a lower field, '
+        "or give an electrode its charge in place of its voltage"
     )
     COMPRESSIVE_MEMBRANE = (
         "the membrane is in compression, where it has no stiffness of its own and wrinkles. "
