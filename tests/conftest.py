@@ -4,6 +4,7 @@ import os
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # read once, when ngsolve loads OpenBLAS
 
+import gc
 import random
 from collections.abc import Iterator
 from typing import Any
@@ -14,6 +15,13 @@ from hypothesis import settings
 
 settings.register_profile("reproducible", derandomize=True, deadline=None)
 settings.load_profile("reproducible")
+
+
+def pytest_collection_finish() -> None:
+    """What is imported and collected stays: no garbage need be looked for in it."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000, *gc.get_threshold()[1:])
 
 
 @pytest.fixture(autouse=True)
