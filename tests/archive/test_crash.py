@@ -30,7 +30,7 @@ def start(path: Path) -> subprocess.Popen[bytes]:
     return subprocess.Popen(command, cwd=ROOT, env=environment, stdout=subprocess.PIPE)
 
 
-@pytest.mark.parametrize("trials", [4, pytest.param(30, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("trials", [2, pytest.param(30, marks=pytest.mark.slow)])
 def test_killed_at_random_moments(trials: int, tmp_path: Path) -> None:
     moments = np.random.default_rng(7).uniform(0.0, 0.25, trials)
     for run, moment in enumerate(moments):

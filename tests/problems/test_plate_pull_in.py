@@ -33,6 +33,7 @@ def test_thinner_gaps() -> None:
     assert limit.centre == pytest.approx(1.0 / 3.0, rel=1.5e-4)
 
 
+@pytest.mark.slow
 def test_the_force_of_the_field_and_of_the_spring() -> None:
     """That of plates a gap apart, with the fringes of the electrode's edge to first order; k x."""
     ratio = RATIOS[-1]
@@ -42,6 +43,7 @@ def test_the_force_of_the_field_and_of_the_spring() -> None:
     assert charged.spring == pytest.approx(charged.spring[0], rel=1e-3)
 
 
+@pytest.mark.slow
 def test_stable_before_and_unstable_beyond() -> None:
     (point,) = (p for p in solved(RATIOS[-1])[0].critical_points if p.kind == "limit")
     assert point.unstable == (0, 1)

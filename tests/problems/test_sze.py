@@ -41,6 +41,7 @@ def test_slit_annulus() -> None:
         assert coarse.end(name) < fine.end(name) < slit_annulus.CASE.end(name)
 
 
+@pytest.mark.slow
 def test_hemisphere_converges() -> None:
     """Orders 3 and 4 on fine meshes end at 4.0745 and 8.1489, Kratos' triangles 64 x 64 at 4.0716 and 8.1484."""
     path = hemisphere_with_hole.run("discretisation.shell_size=2 m")
