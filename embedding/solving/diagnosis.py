@@ -17,8 +17,9 @@ from embedding.solving.result import Result
 from embedding.solving.room import reach
 from embedding.solving.state import State
 
-HIDDEN = 1e4
-"""Stiffness of bending over that of stretching, in roundings, at which Newton's method may fail for want of digits."""
+HIDDEN, USUAL = 1e4, 0.2
+"""Stiffness of bending over that of stretching, in roundings, at which Newton's method may fail for want of digits, in
+elements of the usual size of so many shell sizes: smaller ones are stiffer against stretching."""
 FOLLOWED = frozenset({Result.MAX_ARC, Result.MAX_STEPS})
 LOST = FOLLOWED | {Result.STEP_BELOW_MINIMUM, Result.LINEAR_SOLVER_FAILED}
 """Results that may have another cause than they say."""
@@ -151,8 +152,9 @@ def out_of_theory(problem: Problem, reason: Result) -> Result:
     of a number, or one that bends too sharply for a theory of shells."""
     if reason not in LOST or not problem.plan.bending:
         return reason
-    ratio = problem.scene.shell.thickest / problem.scales.length
-    if reason not in FOLLOWED and ratio**2 < HIDDEN * float(np.finfo(float).eps):
+    ratio, sizes = problem.scene.shell.thickest / problem.scales.length, problem.domain.sizes
+    finest = min((length for _, length in sizes.edges), default=sizes.shell)  # stiff as it stretches, as 1 / length
+    if reason not in FOLLOWED and ratio**2 * min(1.0, finest / USUAL) < HIDDEN * float(np.finfo(float).eps):
         return Result.TOO_THIN
     return Result.SHARPLY_BENT if Bent(problem).sharpest > SHARP else reason
 

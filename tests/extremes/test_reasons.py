@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from embedding import Listener, Result, Scene, Solution, solve
+from embedding.bench.extremes import remanence
 from embedding.bench.extremes.fields import PULL_IN, STIFF, balloon_voltage, charged
 
 R, T, MU = 0.02, 1e-3, 1e5
@@ -141,3 +142,11 @@ def test_planted(reason: Result) -> None:
 
 def test_every_reason_has_a_cause() -> None:
     assert set(PLANTED) == set(Result)
+
+
+def test_too_thin_for_its_elements() -> None:
+    """The shell bends well in larger ones; these are so stiff against stretching that digits are wanting."""
+    cells = {(cell.row, cell.value): cell for cell in remanence.cells()}
+    cell = cells["strip, field nearly against", "a = 100000"]
+    solution = solve(cell.scene().with_overrides(["discretisation.edge_size={x0=3.16e-4, x1=3.16e-4}"]), throw=False)
+    assert solution.result is Result.TOO_THIN, solution.message
