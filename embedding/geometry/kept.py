@@ -1,4 +1,5 @@
-"""The last meshes are kept: who solves the same shape again, at another voltage say, need not wait for its mesh.
+"""The last meshes are kept: who solves the same shape again, at another voltage or order say, need not wait for its
+mesh.
 
 Nor does memory grow with every solve then: Netgen remembers the names of each geometry that it ever meshed.
 """
@@ -17,7 +18,7 @@ from embedding.geometry.sizes import MeshSizes
 from embedding.scene import Shape, SurfaceFile
 
 MOST, LARGEST = 4, 50_000
-"""How many meshes are kept, and of how many elements at most: some ten megabytes each."""
+"""How many meshes are kept, and of how many elements at most: some ten megabytes each, of any order."""
 
 Key = tuple[Shape, Reduction, MeshSizes]
 _kept: OrderedDict[Key, Meshed] = OrderedDict()
@@ -31,7 +32,7 @@ def mesh(shape: Shape, reduction: Reduction, sizes: MeshSizes) -> Meshed:
     """
     if isinstance(shape, SurfaceFile):  # what is in the file may have changed
         return meshing.mesh(shape, reduction, sizes)
-    key = (shape, reduction, sizes)
+    key = (shape, reduction, replace(sizes, order=1))  # elements are straight until they are curved to their order
     made = _kept.pop(key, None) or meshing.mesh(shape, reduction, sizes)
     if made.mesh.ne > LARGEST:
         return made

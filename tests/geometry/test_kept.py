@@ -46,14 +46,23 @@ def test_each_is_curved_alone() -> None:
     np.testing.assert_array_equal(places(again), places(first))
 
 
+def test_another_order_is_on_the_same_elements() -> None:
+    build(Sphere(radius=0.02), ROUND, SIZES)
+    again = build(Sphere(radius=0.02), ROUND, replace(SIZES, order=3))
+    assert len(kept._kept) == 1
+    kept._kept.clear()
+    alone = build(Sphere(radius=0.02), ROUND, replace(SIZES, order=3))
+    np.testing.assert_array_equal(places(again.mesh), places(alone.mesh))
+
+
 def test_only_the_last_few_and_none_that_is_large(monkeypatch: pytest.MonkeyPatch) -> None:
     asked = [replace(SIZES, far=2.0 + 0.1 * number) for number in range(kept.MOST + 2)]
     for sizes in asked:
         kept.mesh(Sphere(radius=0.02), ROUND, sizes)
-    assert [sizes for _, _, sizes in kept._kept] == asked[2:]
+    assert [sizes for _, _, sizes in kept._kept] == [replace(sizes, order=1) for sizes in asked[2:]]
     monkeypatch.setattr(kept, "LARGEST", 10)
     kept.mesh(Sphere(radius=0.02), ROUND, asked[0])
-    assert [sizes for _, _, sizes in kept._kept] == asked[2:]
+    assert [sizes.far for _, _, sizes in kept._kept] == [sizes.far for sizes in asked[2:]]
 
 
 def test_what_was_refused_is_refused_again(monkeypatch: pytest.MonkeyPatch) -> None:
