@@ -50,7 +50,8 @@ def choose_sizes(
     decisions += end
     far = chosen.ambient_size / size if chosen.ambient_size else radius / 2
     origin = "stated by the scene" if chosen.ambient_size else "half the ambient's radius"
-    decisions.append(Decision("mesh far away", f"{far:.3g} x size", f"{origin}; grading {chosen.grading:g}"))
+    reason = f"{origin}; grading {chosen.grading:g}"
+    decisions.append(Decision("mesh far away", f"{far:.3g} x size", reason, far / radius, "element over that radius"))
     bodies = tuple(_meshed(body, size) for body in scene.ambient.bodies)
     sizes = MeshSizes(shell, far, radius, chosen.grading, chosen.order, edges, beyond=beyond, box=box, bodies=bodies)
     return sizes, tuple(decisions)
@@ -87,7 +88,8 @@ def _at_edges(
         size = max(size, 1.2 * ROOM * scene.shell.thickest / shape.size)
         reason += "; no smaller than three thicknesses, for opened faces"
     size = min(shell, size)
-    return tuple((edge, size) for edge in names), (Decision(f"mesh at {where}", f"{size:.3g} x size", reason),)
+    finer = Decision(f"mesh at {where}", f"{size:.3g} x size", reason, size / shell, "element over those elsewhere")
+    return tuple((edge, size) for edge in names), (finer,)
 
 
 def _end(

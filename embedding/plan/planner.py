@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from embedding.geometry.reduction import Reduction
-from embedding.geometry.sizes import AT_POINTS
+from embedding.geometry.sizes import AT_POINTS, MeshSizes
 from embedding.plan.allowance import Allowance
 from embedding.plan.coupling import choose_coupling
 from embedding.plan.decisions import Decision, Extent, Plan
@@ -56,11 +57,13 @@ def explain(scene: Scene) -> Plan:
     if points:
         sizes = replace(sizes, points=points)
         reason = "the moment under a force grows with the logarithm of the distance"
-        mesh = (*mesh, Decision("mesh at point loads", f"{sizes.shell / AT_POINTS:.3g} x size", reason))
+        finer = f"{sizes.shell / AT_POINTS:.3g} x size"
+        mesh = (*mesh, Decision("mesh at point loads", finer, reason, 1 / AT_POINTS, "element over those elsewhere"))
     coupling = choose_coupling(scene, extent, effects, allowance)
     between = (coupling,) if coupling else ()
     loads = _loads(scene, effects, allowance)
-    rest = (loads, *_rigid(scene, reduction), *field, *between, *mesh, _order(scene, extent), *_unused(scene, extent))
+    mesh = (*mesh, _order(scene, extent, sizes, allowance))
+    rest = (loads, *_rigid(scene, reduction), *field, *between, *mesh, *_unused(scene, extent))
     locking = choose_locking(scene) if bending else None
     thin = judge_thinness(scene, effects, allowance, bending=bending)
     decisions = (first, *_closed_form(effects), theory, thin, *([locking] if locking else []), *rest)
@@ -131,9 +134,16 @@ def _unused(scene: Scene, extent: Extent) -> tuple[Decision, ...]:
     return (Decision("not used", ", ".join(pinned), reason),)
 
 
-def _order(scene: Scene, extent: Extent) -> Decision:
-    order = scene.discretisation.order
+def _order(scene: Scene, extent: Extent, sizes: MeshSizes, allowance: Allowance) -> Decision:
+    """The order of the polynomials, and what they leave of an arc of an angle as an element has: 2 (angle / 4)^(p + 1)
+    / (p + 1)! of its radius at most, interpolated in Chebyshev's points."""
+    order, radius = scene.discretisation.order, scene.shell.shape.curvature_radius
     reason = "polynomial order of shell and geometry"
     if extent == "surroundings":
         reason += f"; the potential has order {order + 1}, without which a soft membrane creases"
-    return Decision("order", str(order), reason)
+    if radius is None:
+        return Decision("order", str(order), f"{reason}; all are exact for flat elements")
+    angle = sizes.shell * scene.shell.shape.size / radius
+    left = 2 * (angle / 4) ** (order + 1) / math.factorial(order + 1)
+    measure = "what it leaves of the arc of an element, over its radius"
+    return Decision("order", str(order), reason, left, measure, allowance.threshold)

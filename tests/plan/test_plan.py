@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
+import numpy as np
 import pytest
 
 from embedding import Scene, explain
@@ -139,3 +141,15 @@ def test_small_elements_at_the_sharp_edges_of_a_conductor(
     made = plan(shell=can if not faces else {**SPHERE, "shape": can["shape"]}, model={"interface": interface}, **field)
     assert made.sizes.edges == (() if size is None else tuple((e, pytest.approx(size)) for e in ("end0", "end1")))
     assert topic is None or topic in {decision.topic for decision in made.decisions}
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 4])
+def test_the_number_of_an_order_is_what_it_leaves_of_an_arc(order: int) -> None:
+    size = 0.4  # the angle of an element
+    decision = next(one for one in plan(discretisation={"order": order, "shell_size": 0.02 * size}).decisions
+                    if one.topic == "order")  # fmt: skip
+    angles = np.linspace(-0.5 * size, 0.5 * size, 2001)
+    nodes = 0.5 * size * np.cos((2 * np.arange(order + 1) + 1) * math.pi / (2 * order + 2))
+    left = [f(angles) - np.polynomial.Polynomial.fit(nodes, f(nodes), order)(angles) for f in (np.cos, np.sin)]
+    assert decision.number is not None
+    assert 0.5 * decision.number < np.hypot(*left).max() < 1.01 * decision.number
