@@ -138,6 +138,18 @@ def _membrane(
     )
 
 
+SHEETS = {"strip": (strip, STRIP, "y"), "disc": (disc, DISC, "z")}
+"""Scene, pull-in and the axis across, of each."""
+
+
+def at_pull_in(row: str, gap: float) -> Numbers:
+    """Voltage and middle of the strip or disc at its pull-in across a thin ``gap``."""
+    scene, limit, axis = SHEETS[row]
+    faces = scene(gap, 1.0, []).faces.both
+    assert faces is not None and faces.voltage is not None
+    return {"voltage": faces.voltage, f"u_middle_{axis}": -limit.centre * gap * LENGTH}
+
+
 def until(axis: str, way: float) -> list[Table]:
     """A stage by arc length until the middle of the strip (axis y) or the disc (z) has gone down by ``way``."""
     middle = [LENGTH / 2 if axis == "y" else 0.0, 0.0, 0.0]

@@ -7,15 +7,13 @@ from functools import partial
 
 from embedding.bench.extremes.cell import FAILED, Cell
 from embedding.bench.extremes.electrodes import (
-    DISC,
     LENGTH,
     PELESKO,
-    STRIP,
-    PullIn,
+    SHEETS,
+    at_pull_in,
     balloon,
     balloon_at,
     balloon_pull_in,
-    disc,
     limit_of,
     of_fringes,
     reached,
@@ -87,29 +85,19 @@ def membranes() -> list[Cell]:
         expected=FAILED, slow=True, seconds=300.0,
     )  # fmt: skip
     found = [slack]
-    for gap in (1e-1, 1e-2, 1e-3):  # a mesh between a strip and a plane 1e-4 away has a million unknowns
-        found.append(
+    # a mesh between a strip and a plane 1e-4 away has a million unknowns
+    for row, way, gaps, seconds in (("strip", 0.44, (1e-1, 1e-2, 1e-3), 600.0), ("disc", 0.5, (1e-1, 1e-2), 300.0)):
+        scene, _, axis = SHEETS[row]
+        found += [
             Cell(
-                "gaps", "stretched strip over a plane", f"{gap:.0e}",
-                partial(strip, gap, 1.1, until("y", 0.44 * gap * LENGTH)), partial(_limit, STRIP, "y", gap),
-                PELESKO, tolerance=of_fringes(gap), answers=limit_of, slow=gap < 0.05, seconds=600.0,
+                "gaps", f"stretched {row} over a plane", f"{gap:.0e}",
+                partial(scene, gap, 1.1, until(axis, way * gap * LENGTH)), partial(at_pull_in, row, gap),
+                PELESKO, tolerance=of_fringes(gap), answers=limit_of, slow=gap < 0.05, seconds=seconds,
             )
-        )  # fmt: skip
-    for gap in (1e-1, 1e-2):
-        found.append(
-            Cell(
-                "gaps", "stretched disc over a plane", f"{gap:.0e}",
-                partial(disc, gap, 1.1, until("z", 0.5 * gap * LENGTH)), partial(_limit, DISC, "z", gap),
-                PELESKO, tolerance=of_fringes(gap), answers=limit_of, slow=gap < 0.05, seconds=300.0,
-            )
-        )  # fmt: skip
+            for gap in gaps
+        ]  # fmt: skip
     return found
 
-
-def _limit(limit: PullIn, axis: str, gap: float) -> dict[str, float]:
-    scene = strip(gap, 1.0, []) if axis == "y" else disc(gap, 1.0, [])
-    assert scene.faces.both is not None and scene.faces.both.voltage is not None
-    return {"voltage": scene.faces.both.voltage, f"u_middle_{axis}": -limit.centre * gap * LENGTH}
 
 
 def _sphere(gap: float) -> dict[str, float]:

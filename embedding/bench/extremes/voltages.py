@@ -10,16 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 from embedding.bench.extremes.cell import FAILED, Cell, Numbers, nothing
 from embedding.bench.extremes.electrodes import (
-    DISC,
     ELECTRODE,
     FRINGES,
     GAP,
-    LENGTH,
     PELESKO,
     PLATE,
-    STRIP,
-    PullIn,
-    disc,
+    SHEETS,
+    at_pull_in,
     limit_of,
     plate,
     plate_load,
@@ -123,9 +120,9 @@ def membranes() -> list[Cell]:
                 partial(strip_at, NARROW, 0.9), PELESKO, tolerance=2e-3, slow=True, seconds=600.0,
             )
         )  # fmt: skip
-        for row, scene, limit in (("strip", strip, STRIP), ("disc", disc, DISC)):
+        for row, (scene, _, _) in SHEETS.items():
             for part in (1.01, 1e4):
-                at = partial(_at_limit, row, limit) if own else partial(_voltage_at, row)
+                at = partial(at_pull_in, row, NARROW) if own else partial(_voltage_at, row)
                 found.append(
                     Cell(
                         "voltages", f"stretched {row} over an electrode, {way}", f"{part:g} V_p",
@@ -138,14 +135,7 @@ def membranes() -> list[Cell]:
 
 
 def _voltage_at(row: str) -> Numbers:
-    faces = (strip if row == "strip" else disc)(NARROW, 1.0, []).faces.both
-    assert faces is not None and faces.voltage is not None
-    return {"voltage": faces.voltage}
-
-
-def _at_limit(row: str, limit: PullIn) -> Numbers:
-    axis = "y" if row == "strip" else "z"
-    return {**_voltage_at(row), f"u_middle_{axis}": -limit.centre * NARROW * LENGTH}
+    return {"voltage": at_pull_in(row, NARROW)["voltage"]}
 
 
 def plates() -> list[Cell]:
