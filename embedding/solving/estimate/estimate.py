@@ -236,10 +236,9 @@ def _field(
     if ambient is None or plan.extent != "surroundings":
         return {}
     found, pull = {}, responses.get("field", {})
-    own = _own(problem, scalars)
-    rims = _rims(problem)
+    own, rims = _own(problem, scalars), _rims(problem)
     if wall is not None:
-        found["opened faces" if plan.opened else "closed faces"] = _faces(problem, wall, scalars, responses)
+        found["opened faces" if plan.opened else "closed faces"] = _faces(problem, wall, scalars, responses, own)
     elif not plan.opened:
         off = CLOSED_FACES * _thickness(problem) / _width(problem)
         found["closed faces"] = {name: off * (pull.get(name, 0.0) + own[name]) for name in scalars}
@@ -252,8 +251,10 @@ def _field(
     return found
 
 
-def _faces(problem: Problem, wall: Wall, scalars: Scalars, responses: dict[str, Scalars]) -> Scalars:
-    state, own = State(problem), _own(problem, scalars)
+def _faces(
+    problem: Problem, wall: Wall, scalars: Scalars, responses: dict[str, Scalars], own: Scalars
+) -> Scalars:
+    state = State(problem)
     pulled, pull = state.field_pressures(), responses.get("field", {})
     steep = _steepness(sum(pulled), scalars, responses)
     opened = bool(problem.plan.opened)
