@@ -195,6 +195,15 @@ class System:
         return places
 
     @property
+    def present(self) -> npt.NDArray[np.float64]:
+        """A copy of the unknowns (n,) of the present state; they can be set."""
+        return np.array(self.unknowns.state.vec.FV().NumPy())
+
+    @present.setter
+    def present(self, unknowns: npt.NDArray[np.float64]) -> None:
+        self.unknowns.state.vec.FV().NumPy()[:] = unknowns
+
+    @property
     def _displacement(self) -> npt.NDArray[np.float64]:
         return np.array(self.unknowns.field("u").vec.FV().NumPy())
 
@@ -355,7 +364,7 @@ class System:
         what bending measures rotations from (None without bending)."""
         bending = self.unknowns.bending
         return {
-            "unknowns": np.array(self.unknowns.state.vec.FV().NumPy()),
+            "unknowns": self.present,
             "motions": [motion.save() for motion in self._different_motions],
             "turned": None if bending is None else bending.memory,
         }
@@ -368,7 +377,7 @@ class System:
         self._guessed = self._continued = False
 
     def _put(self, saved: Memory) -> None:
-        self.unknowns.state.vec.FV().NumPy()[:] = saved["unknowns"]
+        self.present = saved["unknowns"]
         if self.unknowns.bending is not None:
             self.unknowns.bending.memory = saved["turned"]
         for motion, kept in zip(self._different_motions, saved["motions"], strict=True):

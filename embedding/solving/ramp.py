@@ -10,6 +10,7 @@ from embedding.scene import Stage
 from embedding.solving.ahead import look_ahead
 from embedding.solving.diagnosis import Landmark, Way, diagnose, largest, response_rate
 from embedding.solving.events import Iteration
+from embedding.solving.forecast import Array, Forecast
 from embedding.solving.memory import Memory, of_target
 from embedding.solving.path import DEFAULT_STEPS, Stepper, Target
 from embedding.solving.problem import Problem
@@ -28,19 +29,18 @@ class Ramp:
         self.session, self.stage, self.start, self.end = session, stage, start, end
         self._stepper = Stepper(stage.steps or DEFAULT_STEPS, session.scene.solver.min_step)
         self._landmark: Landmark | None = None
+        self._forecast = Forecast([] if session.at_rest else [(0.0, session.problem.system.present)])
 
     def follow(self) -> Result:
         """Walk to the end of the stage, or to the first step that cannot be taken."""
         session, stepper, end = self.session, self._stepper, self.end
         for fraction in stepper.proposals():
             if session.worn:
-                self._measure()
-                _remeshed(session)
+                self._remeshed()
             target = end.between(self.start, fraction)
-            reason = step(session, self.stage, target)
+            reason = step(session, self.stage, target, self._forecast.at(fraction))
             if reason is Result.INVERTED_AMBIENT and session.tired:
-                self._measure()
-                reason = step(session, self.stage, target) if _remeshed(session) else reason
+                reason = step(session, self.stage, target) if self._remeshed() else reason
             if reason is None:
                 continue
             if not stepper.cut():
@@ -59,10 +59,14 @@ class Ramp:
         session.detail = detail or session.detail
         return found
 
-    def _measure(self) -> None:
-        """The mesh that the landmark belongs to may be given up."""
-        if self._landmark is not None:
+    def _remeshed(self) -> bool:
+        """Has the ambient a new mesh around the last accepted state now?"""
+        if self._landmark is not None:  # it belongs to the mesh that may be given up
             self._landmark = self._landmark.measured(self.session.problem, self.end)
+        found = _remeshed(self.session)
+        if found:
+            self._forecast.forget()
+        return found
 
     def accepted(self) -> None:
         """The state at the last proposal is an accepted step."""
@@ -70,6 +74,7 @@ class Ramp:
         if self._landmark is None or stepper.relative_length >= 0.5:
             self._landmark = Landmark(session.problem.system.save(), session.at, stepper.fraction)
         stepper.accept()
+        self._forecast.learn(stepper.accepted, session.problem.system.present)
 
     def memory(self) -> Memory:
         """What the ramp goes on from after an accepted step."""
@@ -79,6 +84,7 @@ class Ramp:
             "end": of_target(self.end),
             "accepted": self._stepper.accepted,
             "length": self._stepper.length,
+            "former": [{"fraction": fraction, "unknowns": state} for fraction, state in self._forecast.former],
             "landmark": None if mark is None else {
                 "target": of_target(mark.target), "fraction": mark.fraction, "rate": mark.rate,
                 "saved": mark.saved if mark.target is not here and mark.rate is None else None,
@@ -88,6 +94,8 @@ class Ramp:
     def recall(self, memory: Memory) -> None:
         """Go on from what :meth:`memory` returned; the system is in the state of that step."""
         self._stepper.accepted, self._stepper.length = memory["accepted"], memory["length"]
+        former = [(state["fraction"], state["unknowns"]) for state in memory["former"]]
+        self._forecast = Forecast([*former, (self._stepper.accepted, self.session.problem.system.present)])
         mark = memory["landmark"]
         if mark is not None:
             saved = mark["saved"] or self.session.problem.system.save()
@@ -136,10 +144,19 @@ def _limit_of_field(session: Session, alone: Target, failed: Target) -> tuple[Ta
         session.go_back(saved)
 
 
-def step(session: Session, stage: Stage, target: Target) -> Result | None:
-    """Solve for ``target`` from the last good state and accept it; else a reason, and the last good state."""
+def step(session: Session, stage: Stage, target: Target, guess: Array | None = None) -> Result | None:
+    """Solve for ``target``, from a ``guess`` of the unknowns (n,) if there is one, and from the last good state if that
+    leads nowhere, and accept what is found; else a reason, and the last good state."""
+    if guess is not None and _attempt(session, stage, target, guess) is None:
+        return None
+    return _attempt(session, stage, target, None)
+
+
+def _attempt(session: Session, stage: Stage, target: Target, guess: Array | None) -> Result | None:
     system, started = session.problem.system, time.perf_counter()
     saved = system.save()
+    if guess is not None:
+        system.present = guess
     session.load(target)
 
     def watch(iteration: Iteration) -> None:

@@ -39,7 +39,7 @@ class Remeshed(Problem):
         self.origin = origin_of(problem)
         self._before, self._matching = unknowns, found.matching
         present, system = np.array(unknowns.state.vec.FV().NumPy()), self.system
-        system.unknowns.state.vec.FV().NumPy()[:] = self.carried(present)
+        system.present = self.carried(present)
         counted, before = system.unknowns.bending, unknowns.bending
         if isinstance(counted, CurveBending) and isinstance(before, CurveBending):
             counted.carried_from(before, found.matching)
@@ -49,7 +49,7 @@ class Remeshed(Problem):
     def from_origin(cls, problem: Problem, origin: Memory) -> Remeshed:
         """The new ``problem`` that was made of this one in the state ``origin``; ``problem`` is left in that state."""
         system = problem.system
-        system.unknowns.state.vec.FV().NumPy()[:] = origin["unknowns"]
+        system.present = origin["unknowns"]
         if system.unknowns.bending is not None:
             system.unknowns.bending.memory = origin["turned"]
         return cls(problem)
