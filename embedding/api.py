@@ -109,7 +109,8 @@ def _resumed(path: Name, scene: Scene) -> tuple[Recorder, Kept]:
     archive = resumable(path)
     if archive.scene_object() != scene:
         raise ArchiveError(f"{path}: is the archive of another scene: only the run of the same scene can go on")
-    return Recorder.going_on(archive), kept(archive, scene)
+    known = kept(archive, scene)
+    return Recorder.going_on(archive), known
 
 
 def _last_state(path: Name) -> Neighbour:

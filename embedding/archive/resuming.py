@@ -12,7 +12,7 @@ from embedding.archive.verification import verify
 from embedding.errors import ArchiveError
 from embedding.scene import Scene
 from embedding.solving.events import StepRecord
-from embedding.solving.memory import Kept
+from embedding.solving.memory import LAYOUT, Kept
 
 
 class OtherVersionsWarning(UserWarning):
@@ -44,8 +44,18 @@ def resumable(path: str | os.PathLike[str]) -> Archive:
 
 
 def kept(archive: Archive, scene: Scene) -> Kept:
-    """What is known of the run in ``archive``, whose scene is ``scene``."""
-    return Kept([_whole(step, scene) for step in archive.steps], archive.checkpoint(), archive.origins())
+    """What is known of the run in ``archive``, whose scene is ``scene``.
+
+    Raises:
+        ArchiveError: it is the run of a version of embedding that kept something else of it.
+    """
+    memory = archive.checkpoint()
+    if memory.get("layout") != LAYOUT:
+        raise ArchiveError(
+            f"{archive.path}: was written by another version of embedding: it can be read, but its run cannot go on "
+            "from it. Solve the scene again"
+        )
+    return Kept([_whole(step, scene) for step in archive.steps], memory, archive.origins())
 
 
 def _whole(step: StepRecord, scene: Scene) -> StepRecord:

@@ -24,6 +24,9 @@ from embedding.solving.solution import CriticalPoint
 
 __all__ = ["Kept", "Memory"]
 
+LAYOUT = 2
+"""Number of what is in a memory, raised with every change: a run that was stopped goes on with the same one alone."""
+
 
 @dataclass(frozen=True)
 class Kept:

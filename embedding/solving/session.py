@@ -17,7 +17,7 @@ from embedding.solving.branches import BranchAsked
 from embedding.solving.compression import compressed, region_in_compression
 from embedding.solving.critical import Critical
 from embedding.solving.events import Iteration, Listener, StepRecord
-from embedding.solving.memory import Kept, Memory, critical_of, mesh_digest, of_critical, of_target
+from embedding.solving.memory import LAYOUT, Kept, Memory, critical_of, mesh_digest, of_critical, of_target
 from embedding.solving.newton import Newton
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
@@ -70,6 +70,7 @@ class Session:
     def memory(self) -> Memory:
         """What the rest of the run depends on, right after an accepted step."""
         return {
+            "layout": LAYOUT,
             "stage": self.stage,
             "way": None if self.way is None else self.way.memory(),
             "at": of_target(self.at),

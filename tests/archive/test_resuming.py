@@ -154,6 +154,34 @@ def test_a_damaged_or_older_archive(tmp_path: Path) -> None:
         resume(path)
 
 
+KEPT = {
+    "": "at branches critical_points cuts iterations layout mesh meshed_at solver stage start system way",
+    "system": "assembled linearised measured motions ranges turned unknowns",
+    "membrane": "accepted end former landmark length start",
+    "membrane by arc length": "end goal known launched start walk",
+    "walk": "before blind done first here length weight",
+}
+
+
+@pytest.mark.parametrize("name", ["membrane", BY_ARC_LENGTH])
+def test_whoever_changes_what_is_kept_raises_its_layout(name: str, tmp_path: Path) -> None:
+    solve(scene_called(name), archive=tmp_path / "run.vtkhdf")
+    memory = open_archive(tmp_path / "run.vtkhdf").checkpoint()
+    assert memory["layout"] == 2
+    tables = {"": memory, "system": memory["system"], name: memory["way"]}
+    tables |= {"walk": memory["way"]["walk"]} if "walk" in memory["way"] else {}
+    assert {part: " ".join(sorted(table)) for part, table in tables.items()} == {part: KEPT[part] for part in tables}
+
+
+def test_what_another_layout_kept_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = stopped(tmp_path)
+    before = path.read_bytes()
+    monkeypatch.setattr(resuming, "LAYOUT", 1)
+    with pytest.raises(ArchiveError, match="written by another version of embedding: .* Solve the scene again"):
+        resume(path)
+    assert path.read_bytes() == before
+
+
 def test_other_versions_are_warned_of(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = stopped(tmp_path)
     true = recorder.versions()
