@@ -32,9 +32,9 @@ scene = balloon(shell_size=0.3)
 scene = scene.model_copy(update={"model": {"reduction": sys.argv[1]}})
 solve(scene, throw=False, listeners=[Stop()])
 """
-ASKED, ONE_STEP, OWN_STEPS = "accuracy.relative=1e-3", "path.0.steps=1", "path=[{}]"
-"""``OWN_STEPS``: in steps of the solver's choice, six here, as where no number of them is stated."""
-RUNS = ((), (ASKED,), (ASKED, OWN_STEPS), (ASKED, ONE_STEP))
+ASKED, ONE_STEP, TEN_STEPS = "accuracy.relative=1e-3", "path.0.steps=1", "path.0.steps=10"
+"""The scene states no number of steps: the solver takes six of its own choice."""
+RUNS = ((), (ASKED,), (ASKED, TEN_STEPS), (ASKED, ONE_STEP))
 PAIRS = 7
 
 
