@@ -109,3 +109,17 @@ def _turns(domain: Domain) -> list[Turn]:
     if domain.mesh.dim == 2:
         return [lambda x: CF((-x[1], x[0]))]
     return [partial(Cross, CF(tuple(row))) for row in np.eye(3)]
+
+
+def resultants(
+    lagrangian: Lagrangian, following: Following | None
+) -> dict[str, ShellResultants | BodyResultants]:
+    """What measures the field's force and torque on the shell and on each body, by name; nothing without a field."""
+    field, unknowns = lagrangian.field, lagrangian.unknowns
+    if field is None:
+        return {}
+    values = {name: unknowns.field(name) for name in unknowns.names}
+    bodies = range(len(field.field.bodies))
+    return {"shell": ShellResultants(lagrangian, following)} | {
+        f"body{number}": BodyResultants(lagrangian.domain, field, values, number) for number in bodies
+    }

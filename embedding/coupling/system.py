@@ -22,7 +22,7 @@ from embedding.coupling.linear import DirectSolver, LinearSolver
 from embedding.coupling.physics import Physics
 from embedding.coupling.potential_form import PotentialForm
 from embedding.coupling.potential_solve import PotentialSolve
-from embedding.coupling.resultants import BodyResultants, ShellResultants
+from embedding.coupling.resultants import resultants
 from embedding.coupling.tractions import FaceTractions
 from embedding.coupling.unknowns import SIDES, Unknowns
 from embedding.coupling.work import LoadWork
@@ -66,7 +66,7 @@ class System:
         if self.lagrangian.field is not None and domain.open and self.motions:
             motion = self.motions[SIDES["t"]]
             self.following = Following(domain, self.lagrangian.field, self.unknowns, motion)
-        self.resultants = self._resultants()
+        self.resultants = resultants(self.lagrangian, self.following) if self.motions else {}
         self._point_forces = point_load_vector(domain, self.unknowns.trace, physics.loads)
         self.load_work = LoadWork(self.lagrangian, self._point_forces)
         self._displaced = displaced(domain, self.unknowns.trace, physics.prescribed)
@@ -93,17 +93,6 @@ class System:
         if self.domain.open and faces:
             return dict.fromkeys(faces, AmbientMotion(self.domain, faces, linear))
         return {side: AmbientMotion(self.domain, {side: space}, linear) for side, space in faces.items()}
-
-    def _resultants(self) -> dict[str, ShellResultants | BodyResultants]:
-        """What measures the field's force and torque on the shell and on each body."""
-        field = self.lagrangian.field
-        if field is None or not self.motions:
-            return {}
-        values = {name: self.unknowns.field(name) for name in self.unknowns.names}
-        bodies = range(len(field.field.bodies))
-        return {"shell": ShellResultants(self.lagrangian, self.following)} | {
-            f"body{number}": BodyResultants(self.domain, field, values, number) for number in bodies
-        }
 
     @property
     def _different_motions(self) -> list[AmbientMotion]:

@@ -29,7 +29,8 @@ class Ramp:
         self.session, self.stage, self.start, self.end = session, stage, start, end
         self._stepper = Stepper(stage.steps or DEFAULT_STEPS, session.scene.solver.min_step)
         self._landmark: Landmark | None = None
-        self._forecast = Forecast([] if session.at_rest else [(0.0, session.problem.system.present)])
+        begun = bool(session.steps) and not session.at_rest  # rest itself is no equilibrium under a magnet's own field
+        self._forecast = Forecast([(0.0, session.problem.system.present)] if begun else [])
 
     def follow(self) -> Result:
         """Walk to the end of the stage, or to the first step that cannot be taken."""
