@@ -28,3 +28,4 @@ fi
 
 [ -x .venv/bin/python ] || "$python" -m venv .venv
 .venv/bin/python -m pip install --quiet --editable ".[$extra]"
+.venv/bin/python -m compileall -q embedding problems                 # some Pythons are told not to keep what they compile
