@@ -1,7 +1,7 @@
 """What accuracy costs on every problem: the whole ladder of each scene, compared; the tables of docs/trades.md.
 
 ``python -m benchmarks.trades docs FOLDER [PROBLEM ...]`` (an hour on one core) keeps the archives of all rungs in
-FOLDER, and goes on with what is there; with names of problems it does only those.
+FOLDER, and goes on with what is there; with names of problems it does only those, and leaves the rows of others.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from benchmarks.pages import write
+from benchmarks.pages import merged, write
 from embedding import load_scene
 from embedding.studies.errors import StudyError
 from embedding.trade import Trade, measure_trade
@@ -75,5 +75,7 @@ def tables(folder: Path, names: Sequence[str]) -> dict[str, list[str]]:
 
 
 if __name__ == "__main__":
-    for mark, lines in tables(Path(sys.argv[2]), sys.argv[3:]).items():
-        write(PAGE, lines, f"<!-- {mark} -->")
+    names = sys.argv[3:]
+    for name, lines in tables(Path(sys.argv[2]), names).items():
+        mark = f"<!-- {name} -->"
+        write(PAGE, merged(PAGE, lines, mark) if names else lines, mark)
