@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from embedding.view.rendering import require_packages
@@ -21,6 +22,8 @@ COLOURS = {
 SIZE, DPI = (7.2, 4.8), 130
 NAMED = ("order and mesh",)
 """Rungs of these choices are named only on the front: there are many of them."""
+BESIDE = (((5, 4), "left"), ((5, -9), "left"), ((-5, 4), "right"), ((-5, -9), "right"))
+"""Where a name may stand beside its point, in typographic points, and which part of it is there; the first is best."""
 
 
 def trade_plot(trade: Trade, output: str | os.PathLike[str]) -> None:
@@ -55,13 +58,31 @@ def figure_of(trade: Trade) -> Figure:
         if rows:
             costs, errors = [trade.cost(row) for row in rows], [row.error for row in rows]
             axes.scatter(costs, errors, color=colour, label=of, zorder=2)
-    for row in shown:
-        if row in on_front or row.of not in NAMED:
-            _name(axes, row.rung, (trade.cost(row), row.error))
     axes.set_title(trade.scene.name.replace("_", " "), loc="left")
     axes.legend(fontsize=8, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    named = [row for row in shown if row in on_front or row.of not in NAMED]
+    figure.draw_without_rendering()  # until then nothing has its place
+    _name(axes, [(row.rung, (trade.cost(row), row.error)) for row in named])
     return figure
 
 
-def _name(axes: Any, text: str, place: tuple[float, float]) -> None:
-    axes.annotate(text, place, xytext=(5, 4), textcoords="offset points", fontsize=7, color="#44444c")
+def _name(axes: Any, points: Sequence[tuple[str, tuple[float, float]]]) -> None:
+    """Write names beside their points, each where it covers least of other names and of the axis."""
+    from matplotlib.transforms import Bbox
+
+    taken = [axes.yaxis.get_tightbbox()]
+
+    def covered(label: Any) -> float:
+        common = (Bbox.intersection(label.get_window_extent(), other) for other in taken)
+        return sum(box.width * box.height for box in common if box is not None)
+
+    for text, place in points:
+        labels = [
+            axes.annotate(text, place, offset, textcoords="offset points", ha=side, fontsize=7, color="#44444c")
+            for offset, side in BESIDE
+        ]
+        best = min(labels, key=covered)
+        taken.append(best.get_window_extent())
+        for label in labels:
+            if label is not best:
+                label.remove()

@@ -13,7 +13,7 @@ import pytest
 from embedding import Scene, load_scene
 from embedding.cli import main
 from embedding.studies.errors import StudyError
-from embedding.trade import Row, Rung, ladder, measure_trade, measuring
+from embedding.trade import Row, Rung, Trade, ladder, measure_trade, measuring
 from embedding.trade.chart import figure_of, trade_plot
 from embedding.trade.ladder import FINEST, PLANNED
 from embedding.trade.rows import cheapest, front
@@ -101,6 +101,21 @@ def test_a_stated_reference(scene: Path) -> None:
     assert found.cost(found.rows[0]) == 1.0
     with pytest.raises(StudyError, match="no scalar volume: did you mean \"volume_ratio\""):
         measure_trade(load_scene(scene), "trade", quantity="volume")
+
+
+def test_names_in_the_picture_do_not_cover_each_other() -> None:
+    """Two rungs close to each other, between others."""
+    pytest.importorskip("pebble")
+    scene = charged_balloon.scene()
+    places = {PLANNED: (1.0, 1e-4), "order 2": (1.01, 1.05e-4), "faces closed": (4.0, 1e-2), "3d": (9.0, 1e-6)}
+    rows = tuple(
+        Row(rung, "plan", (), "done", value=1.0, error=error, cpu_seconds=cpu) for rung, (cpu, error) in places.items()
+    )
+    figure = figure_of(Trade(scene, "stretch", "1", 1.0, True, rows))
+    figure.draw_without_rendering()
+    names = {text.get_text(): text.get_window_extent() for text in figure.axes[0].texts}
+    assert names.keys() == places.keys()
+    assert all(box.count_overlaps(names.values()) == 1 for box in names.values()), "itself alone"
 
 
 @pytest.mark.slow
