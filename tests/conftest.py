@@ -38,3 +38,20 @@ def pytest_xdist_make_scheduler(config: Any, log: Any) -> Any:
     from xdist.scheduler import WorkStealingScheduling
 
     return WorkStealingScheduling(config, log)
+
+
+@pytest.fixture
+def unestimated(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Solves without the estimate of their error, which costs as much as the way to the solution, for tests that look
+    at the solution alone; not those marked ``estimated``. Estimates have tests of their own, on the scenes of these
+    problems too: tests/solving/test_effectivity."""
+    if request.node.get_closest_marker("estimated"):
+        yield
+        return
+    from embedding.solving import driver
+    from embedding.solving.estimate import Estimates
+
+    with pytest.MonkeyPatch.context() as patched:  # of its own: a test may undo those of the other
+        patched.setattr(driver, "estimate_errors", lambda *_: Estimates({}, None, None, 0.0))
+        patched.setattr(driver, "check_health", lambda *_: ())
+        yield

@@ -56,6 +56,7 @@ def test_a_cube_with_larger_elements_at_its_edges(tmp_path: Path) -> None:
     assert math.log2(coarse / fine) > 4 / 3
 
 
+@pytest.mark.estimated
 @pytest.mark.slow
 def test_a_cube_by_default(tmp_path: Path) -> None:
     """From a file, whose sharp edges are found."""

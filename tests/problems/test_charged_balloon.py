@@ -50,6 +50,7 @@ def test_the_default_mesh_is_below_the_theory(ratio: float) -> None:
     assert charged(ratio, "opened")["stretch"] == pytest.approx(fine["stretch"], abs=1e-5)
 
 
+@pytest.mark.estimated
 def test_the_scene_file() -> None:
     solution = charged_balloon.run()
     assert solution["stretch"][-1] == pytest.approx(1.458, abs=1e-3)

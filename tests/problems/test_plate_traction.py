@@ -49,6 +49,7 @@ def test_other_sides_and_thickness() -> None:
     assert plate_traction.error(solution) < 1e-10
 
 
+@pytest.mark.estimated
 def test_the_error_estimate_is_zero_for_what_is_exact() -> None:
     solution = plate_traction.run()
     assert solution.error is not None and solution.error.value < 1e-12

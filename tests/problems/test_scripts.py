@@ -22,6 +22,7 @@ LONG = ("charged_balloon", "dielectric_balloon", "dielectric_tube", "capacitance
 """Several solves each, which their own tests do as well."""
 
 
+@pytest.mark.estimated
 @pytest.mark.parametrize("name", [*SCRIPTS, *(pytest.param(name, marks=pytest.mark.slow) for name in LONG)])
 def test_script(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.chdir(tmp_path)

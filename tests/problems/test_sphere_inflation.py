@@ -134,6 +134,7 @@ class LastGood(Listener):
         self.cuts.append(reason)
 
 
+@pytest.mark.estimated
 @pytest.mark.parametrize(
     ("changes", "limit"),
     [

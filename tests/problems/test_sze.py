@@ -76,6 +76,7 @@ def test_slit_annulus_converges_at_order_three() -> None:
     assert orders(unknowns, errors)[0] > 2.7
 
 
+@pytest.mark.estimated
 def test_the_error_where_three_sheets_meet() -> None:
     """What the rotation at the junction is measured from goes along to the next order."""
     planned, fine = t_cantilever.run().solution, t_cantilever.run("discretisation.order=4").solution
