@@ -37,7 +37,8 @@ class ProgressDisplay(Listener):
         self.title, self.planned, self.stage_ends = "", 0, list[tuple[int, str]]()
         self.accepted_steps, self.step_number = 0, 1
         self.target: dict[str, float] = {}
-        self.has_field, self.counted = False, True
+        self.ramped: tuple[str, ...] = ()
+        self.counted = True
         self.heading, self.counts = "Newton", "iterations"
         self.newton: list[Iteration] = []
         self.last: StepRecord | None = None
@@ -64,11 +65,12 @@ class ProgressDisplay(Listener):
     def started(self, problem: Problem) -> None:
         """The problem is meshed: say what will be solved."""
         stages = problem.scene.path
-        self.has_field = problem.scene.ambient is not None
+        self.ramped = problem.scene.ramped
+        with_field = problem.scene.ambient is not None
         joint = problem.plan.coupling == "joint"
         if problem.plan.coupling == "staggered":
             self.heading, self.counts = "turn", "turns"
-        counts = [planned_steps(stage, with_field=self.has_field, joint=joint) for stage in stages]
+        counts = [planned_steps(stage, with_field=with_field, joint=joint) for stage in stages]
         self.stage_ends = []
         for stage, count in zip(stages, counts, strict=True):
             if count is None:
@@ -173,7 +175,7 @@ class ProgressDisplay(Listener):
 
     def _load(self) -> str:
         """The load of the present step in words, without what the scene does not have."""
-        shown = {name: value for name, value in self.target.items() if self.has_field or name != "field"}
+        shown = {name: value for name, value in self.target.items() if name in (*self.ramped, "volume_ratio")}
         return ", ".join(f"{name.replace('_', ' ')} {value:.4g}" for name, value in shown.items())
 
     def _stretch(self, record: StepRecord) -> str:

@@ -72,7 +72,8 @@ def print_archive(archive: Archive) -> None:
     rows += assumption_rows(archive.assumptions) + health_rows(archive.health, all_of_them=True)
     if archive.cost is not None:
         rows.append(("cost", cost_line(archive.cost)))
-    rows += critical_rows(archive.critical_points)
+    if archive.critical_points:
+        rows += critical_rows(archive.critical_points, archive.scene_object().ramped)
     if archive.cuts:
         rows.append(("cuts", f"{len(archive.cuts)} steps were retried shorter"))
     rows += [(f"block {name}", ", ".join(archive.block(name).fields)) for name in archive.blocks]

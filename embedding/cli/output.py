@@ -102,12 +102,14 @@ def cost_line(cost: Cost | ArchivedCost) -> str:
     return f"{seconds(cost.wall_seconds)}, {cost.peak_memory_bytes / 1e6:.0f} MB, {unknowns} unknowns"
 
 
-def critical_rows(points: Sequence[CriticalPoint]) -> list[tuple[str, str]]:
-    """Where the path turns or branches, a row each."""
+def critical_rows(points: Sequence[CriticalPoint], ramped: Sequence[str]) -> list[tuple[str, str]]:
+    """Where the path turns or branches, a row each, with the factors that scale something in its scene."""
+    from embedding.solving.path import Target
+
     rows = []
     for point in points:
         stability = " to ".join("unknown" if n is None else str(n) for n in point.unstable)
-        load = f"mechanical {point.factor_mechanical:.6g}, field {point.factor_field:.6g}"
+        load = Target(point.factor_mechanical, point.factor_field, None).told(ramped, 6)
         place = f"before step {point.before_step}; unstable modes {stability}"
         rows.append((f"{point.kind} point", f"{load} (stage {point.stage}, {place})"))
     return rows
@@ -185,7 +187,7 @@ def print_solution(solution: Solution, picture: Path | None) -> None:
     units = {name: scalar_unit(name, per_length) for name in scalars}
     told = {name: number(value, units[name]) for name, value in without_noise(scalars, units).items()}
     rows = [(name, within(text, solution.errors.get(name))) for name, text in told.items()]
-    rows += critical_rows(solution.critical_points)
+    rows += critical_rows(solution.critical_points, solution.scene.ramped)
     if solution.error is not None:
         rows.append(("estimated error", error_line(solution.error)))
     rows += attempt_rows(solution) + assumption_rows(solution.assumptions)

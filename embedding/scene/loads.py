@@ -102,6 +102,11 @@ class Loads(Part):
     variant: Literal["embedding-aware", "net", "as-published"] = "embedding-aware"
 
     @property
+    def any(self) -> bool:
+        """Is there a load?"""
+        return self != Loads(rim=self.rim, variant=self.variant)
+
+    @property
     def pressure_fields(self) -> dict[str, PressureField]:
         """The face pressures that vary over the surface, by their field name."""
         pressures = {"pressure_top": self.pressure_top, "pressure_bottom": self.pressure_bottom}

@@ -48,6 +48,12 @@ class Scene(Part):
     output: Output = Output()
     accuracy: Annotated[Accuracy | None, BeforeValidator(from_number)] = None
 
+    @property
+    def ramped(self) -> tuple[str, ...]:
+        """The factors of the path that scale something here: "mechanical", "field" or both."""
+        mechanical = self.loads.any or any(any(support.displacement) for support in self.supports)
+        return ("mechanical",) * mechanical + ("field",) * (self.ambient is not None)
+
     @classmethod
     def from_toml(cls, text: str, source: str | None = None) -> Scene:
         """Read a scene from TOML text; ``source`` names it in errors.

@@ -124,15 +124,7 @@ def limit_reason(problem: Problem, here: Target, end: Target) -> Result:
 
 def largest(problem: Problem, limit: Target) -> str:
     """The load of a limit point in words."""
-    return f"the load is largest at {told(problem, limit)}"
-
-
-def told(problem: Problem, load: Target) -> str:
-    """A load in words."""
-    named = load.report()
-    if problem.system.physics.field is None:
-        named.pop("field", None)
-    return ", ".join(f"{name} {value:.4g}" for name, value in named.items())
+    return f"the load is largest at {limit.told(problem.scene.ramped)}"
 
 
 def crowded(problem: Problem, reason: Result) -> tuple[Result, str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from embedding.scene import Stage
@@ -45,6 +45,12 @@ class Target:
         """The target as named numbers, for progress and records."""
         named = {"mechanical": self.mechanical, "field": self.field, "volume_ratio": self.volume}
         return {name: value for name, value in named.items() if value is not None}
+
+    def told(self, ramped: Sequence[str], digits: int = 4) -> str:
+        """The target in words, of its factors those that scale something; of all if that is none."""
+        named = self.report()
+        shown = [name for name in named if name in ramped or name == "volume_ratio"] or named
+        return ", ".join(f"{name} {named[name]:.{digits}g}" for name in shown)
 
 
 def stage_target(stage: Stage, full_difference: float | None) -> Target:

@@ -237,15 +237,10 @@ class Session:
     def told(self, result: Result) -> str:
         """The message of a solve that ended with ``result``."""
         done = f"after {len(self.steps)} accepted steps" if self.steps else "before the first step was accepted"
-        load, with_field = self.at.report(), self.problem.system.physics.field is not None
-        if not with_field:
-            load.pop("field", None)
-        where = ", ".join(f"{name} {value:.4g}" for name, value in load.items())
-        passed = "".join(
-            f"; passed a {point.kind} point at mechanical {point.factor_mechanical:.5g}"
-            + (f", field {point.factor_field:.5g}" if with_field else "")
-            for point in self.critical
-        )
+        ramped, passed = self.scene.ramped, ""
+        for point in self.critical:
+            at = Target(point.factor_mechanical, point.factor_field, None)
+            passed += f"; passed a {point.kind} point at {at.told(ramped, 5)}"
         told = self.detail or (self.no_mesh if result is Result.INVERTED_AMBIENT else "")
         detail = f"{told}: " if told else ""
-        return f"stopped {done} (last good load: {where}{passed}): {detail}{result.advice}"
+        return f"stopped {done} (last good load: {self.at.told(ramped)}{passed}): {detail}{result.advice}"

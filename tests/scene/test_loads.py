@@ -167,3 +167,24 @@ def test_a_point_off_the_axis_needs_three_dimensions() -> None:
     off = {"at": [0.02, 0, 0], "force": [0, 0, 1]}
     stated = scene("sphere", loads={"point_loads": [ON_AXIS | {"at": [0, 0, 0.02]}, off]})
     assert [problem.path for problem in axisymmetry_problems(stated)] == ["loads.point_loads.1.at"]
+
+
+PRESSED, ELECTRIC, RUBBER = {"pressure_bottom": 500.0}, {"field": "electric"}, {"relative_permittivity": 3.0}
+MOVED = [{"where": "x0", "fix": ["x"]}, {"where": "x1", "fix": ["x"], "displacement": [1e-3, 0.0, 0.0]}]
+
+
+@pytest.mark.parametrize(
+    ("stated", "ramped"),
+    [
+        (scene(), ()),
+        (scene(loads={"rim": "pressurised"}), ()),
+        (scene(loads=PRESSED), ("mechanical",)),
+        (scene(loads={"gravity": [0.0, 0.0, -9.81]}, of_shell={"density": 1e3}), ("mechanical",)),
+        (scene(loads=PRESSED, ambient=ELECTRIC, of_shell=RUBBER), ("mechanical", "field")),
+        (scene(ambient=ELECTRIC, of_shell=RUBBER), ("field",)),
+        (scene("strip", supports=MOVED[:1]), ()),
+        (scene("strip", supports=MOVED), ("mechanical",)),
+    ],
+)
+def test_what_the_factors_of_the_path_scale(stated: Scene, ramped: tuple[str, ...]) -> None:
+    assert stated.ramped == ramped
