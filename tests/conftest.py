@@ -7,6 +7,7 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"  # read once, when ngsolve loads OpenBL
 import gc
 import random
 from collections.abc import Iterator
+from contextlib import nullcontext
 from typing import Any
 
 import numpy as np
@@ -40,18 +41,10 @@ def pytest_xdist_make_scheduler(config: Any, log: Any) -> Any:
     return WorkStealingScheduling(config, log)
 
 
-@pytest.fixture
-def unestimated(request: pytest.FixtureRequest) -> Iterator[None]:
-    """Solves without the estimate of their error, which costs as much as the way to the solution, for tests that look
-    at the solution alone; not those marked ``estimated``. Estimates have tests of their own, on the scenes of these
-    problems too: tests/solving/test_effectivity."""
-    if request.node.get_closest_marker("estimated"):
-        yield
-        return
-    from embedding.solving import driver
-    from embedding.solving.estimate import Estimates
+@pytest.fixture(name="unestimated")
+def _unestimated(request: pytest.FixtureRequest) -> Iterator[None]:
+    """The test solves ``unestimated``, unless it is marked ``estimated``."""
+    from tests.unestimated import unestimated
 
-    with pytest.MonkeyPatch.context() as patched:  # of its own: a test may undo those of the other
-        patched.setattr(driver, "estimate_errors", lambda *_: Estimates({}, None, None, 0.0))
-        patched.setattr(driver, "check_health", lambda *_: ())
+    with nullcontext() if request.node.get_closest_marker("estimated") else unestimated():
         yield

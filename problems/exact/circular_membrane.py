@@ -180,6 +180,11 @@ def at_pressure(pressure: float, law: Law | None = None) -> Inflated:
 
     Raises ValueError for a pressure that is not positive or exceeds the limit pressure.
     """
+    return _rising(pressure, law or neo_hookean())
+
+
+@lru_cache(maxsize=32)
+def _rising(pressure: float, law: Law) -> Inflated:
     limit = limit_state(law)
     if not pressure > 0.0:
         raise ValueError(f"pressure is {pressure:.6g}: it must be positive")

@@ -12,6 +12,7 @@ from problems import half_cylinder, hemisphere_with_hole, pinched_cylinder, pull
 from problems.common import LoadPath
 from problems.published.case import Case
 from tests.problems.measures import orders
+from tests.unestimated import unestimated
 
 HALF_A_PER_CENT = 5e-3
 MOST = 150
@@ -79,7 +80,9 @@ def test_slit_annulus_converges_at_order_three() -> None:
 @pytest.mark.estimated
 def test_the_error_where_three_sheets_meet() -> None:
     """What the rotation at the junction is measured from goes along to the next order."""
-    planned, fine = t_cantilever.run().solution, t_cantilever.run("discretisation.order=4").solution
+    planned = t_cantilever.run().solution
+    with unestimated():
+        fine = t_cantilever.run("discretisation.order=4").solution
     assert planned.error is not None
     true = abs(planned["displacement"][-1] / fine["displacement"][-1] - 1.0)
     assert 0.5 * true < planned.error.discretisation < 5.0 * true

@@ -17,6 +17,8 @@ from embedding.solving.driver import Run
 from embedding.solving.places import displacement_row
 from problems.exact.buckling import COLUMNS
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 R, MU = 0.02, 1e5
 SPHERE: dict[str, Any] = {
     "shape": {"kind": "sphere", "radius": R},
@@ -121,6 +123,7 @@ def test_displacement_control_meets_every_part() -> None:
     assert [point.kind for point in solution.critical_points] == ["limit"]
 
 
+@pytest.mark.estimated
 @pytest.mark.parametrize("control", ["auto", "displacement"])
 def test_an_end_that_is_where_the_stage_begins_is_one_step(control: str) -> None:
     """At rest, without load, and with an error estimate; behind another stage, the state that one ended in."""
@@ -268,6 +271,7 @@ def test_onto_the_bent_branch_of_a_column(side: float) -> None:
     assert np.sign(tip[1]) == side * np.sign(mode[np.argmax(np.abs(mode))])
 
 
+@pytest.mark.estimated
 @pytest.mark.parametrize(("part", "number", "met"), [(0.5, 1, 0), (1.0, 7, 1), (1.0, 1, 1)])
 def test_a_branch_that_is_not_met_is_told(part: float, number: int, met: int) -> None:
     """Below Euler's load a column has none, up to one and a half times that one: 9 Euler loads is the next."""

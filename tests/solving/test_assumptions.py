@@ -19,6 +19,7 @@ from embedding.plan.allowance import SAFE
 from embedding.solving import Assumption, Result, raised, run
 from problems import charged_balloon, grounded_balloon, varying_pressure_sphere
 from problems.exact import sphere
+from tests.unestimated import unestimated
 
 MU, RADIUS = 1e5, 0.02
 SPHERE: dict[str, Any] = {
@@ -80,7 +81,8 @@ def test_a_field_that_is_solved_once_is_off_by_its_gap() -> None:
     """Inside a grounded sphere the pull grows with the balloon: the exact stretch, and what the gap says of it."""
     changes = grounded_balloon.at_voltage(340e3)
     once = solve(load_scene(grounded_balloon.SCENE, (*changes, "model.coupling=once", "path=[{steps=6}]")))
-    joint = solve(load_scene(grounded_balloon.SCENE, (*changes, "path=[{steps=6}]")))
+    with unestimated():
+        joint = solve(load_scene(grounded_balloon.SCENE, (*changes, "path=[{steps=6}]")))
     true = abs(once["displacement"][-1] / joint["displacement"][-1] - 1)
     found = named(once, "coupling")
     assert not found.held

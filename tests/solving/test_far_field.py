@@ -7,6 +7,8 @@ import pytest
 from embedding import load_scene, solve
 from problems import permeable_sphere
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 MESH_NOISE = 1e-5
 """Meshes of different ambients differ beside the shell too: seen 4e-6 of the stretch."""
 

@@ -12,6 +12,8 @@ from embedding import Scene, open_archive, solve
 from embedding.archive import Archive
 from embedding.scene.scales import EPSILON_0, MU_0
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 R, VOLTAGE, LIQUID = 0.02, 5e3, 2.5
 SPHERE: dict[str, Any] = {
     "shape": {"kind": "sphere", "radius": R},

@@ -10,6 +10,8 @@ from embedding import Result, Scene, Solution, solve
 from embedding.solving.forecast import Forecast
 from tests.balloons import SMALL
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 TEN_STEPS = Scene.from_toml(SMALL).with_overrides(["path.0.steps=10"])
 Array = npt.NDArray[np.float64]
 

@@ -11,6 +11,8 @@ from embedding.post import energy_balance
 from embedding.solving.neighbour import common_factors
 from tests.balloons import SMALL
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 SCENE = Scene.from_toml(SMALL)
 CHARGED = SCENE.with_overrides(
     ["ambient.field=electric", "shell.relative_permittivity=3.0", "faces.top.voltage=0.0", "faces.bottom.voltage=1e3"]

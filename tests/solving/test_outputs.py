@@ -19,6 +19,8 @@ from tests.scene.samples import refusals, scene
 from tests.shell.bodies import CASES, THICKNESS, meshed
 from tests.shell.test_tables import distance
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 PLACE = 0.3
 OF_STRESS = {"stress", "stress_nn", "pressure_3d", "hydrostatic_pressure"}
 EVERY = tuple(f"{name}@{PLACE}" if entry.place else name for name, entry in QUANTITIES.items())

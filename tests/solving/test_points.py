@@ -9,6 +9,8 @@ import pytest
 from embedding import Scene, SceneError, load_scene, solve
 from problems import cantilever_moment, charged_balloon
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 POINTS = 'output.points={east=["20 mm", 0, 0], slanted=["12 mm", "16 mm", 0], top=[0, 0, "20 mm"]}'
 
 

@@ -14,6 +14,8 @@ import pytest
 
 from embedding import Scene, Solution, solve
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 LENGTH, STRENGTH, ANGLE, EPSILON_0 = 0.1, 1e5, math.radians(30.0), 8.8541878128e-12
 Array = npt.NDArray[np.float64]
 
@@ -78,6 +80,7 @@ def test_the_reference() -> None:
     assert polarisability(1.0) == pytest.approx((square, square), rel=1e-5)
 
 
+@pytest.mark.estimated
 @pytest.mark.parametrize("ratio", [0.01, 0.03, 0.05])
 @pytest.mark.parametrize("interface", ["opened", "closed"])
 def test_a_thick_strip(ratio: float, interface: str) -> None:
@@ -90,6 +93,7 @@ def test_a_thick_strip(ratio: float, interface: str) -> None:
     assert 0.8 * true <= error.value <= 5.0 * true
 
 
+@pytest.mark.estimated
 def test_an_accuracy_that_the_sides_do_not_allow() -> None:
     solution = turned(0.03, 'accuracy={relative=1e-2, of=["torque_z"]}')
     assert solution.result.name == "BEYOND_THE_MODEL"

@@ -19,6 +19,8 @@ from embedding.solving.driver import Run, run
 from embedding.solving.stability import unstable_modes
 from tests.coupling.scenes import coupled, distort
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 Array = Any
 R, MU = 0.02, 3e4
 
@@ -210,6 +212,7 @@ def test_the_interior_that_newton_freezes_is_an_error_of_the_mesh() -> None:
             assert curvature == pytest.approx(values[number], rel=1e-5)
 
 
+@pytest.mark.estimated
 @pytest.mark.slow
 def test_soft_modes_beside_robins_condition() -> None:
     """A charged membrane bears the pull of its field by tension alone, as a drop at Rayleigh's limit (Phil. Mag. 14

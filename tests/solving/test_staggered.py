@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import math
 import tomllib
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,9 @@ from embedding.solving.state import State
 from problems import charged_balloon, grounded_balloon, permeable_sphere
 from problems.exact.roots import bracketed_root
 from tests.coupling.scenes import coupled
+from tests.unestimated import unestimated
+
+pytestmark = pytest.mark.usefixtures("unestimated")
 
 TURNS = "model.coupling=staggered"
 ONCE = "model.coupling=once"
@@ -37,6 +41,13 @@ SCENES: dict[str, tuple[Any, tuple[str, ...]]] = {
     "grounded": (grounded_balloon, ("path=[{steps = 4}]", *grounded_balloon.at_voltage(340e3))),
     "permeable": (permeable_sphere, (MAGNETISED,)),
 }
+
+
+@cache
+def solved_jointly(name: str) -> Solution:
+    problem, changes = SCENES[name]
+    found: Solution = problem.run(*changes)
+    return found
 
 
 class JointUpdate(Listener):
@@ -66,7 +77,7 @@ def test_the_answer_is_the_joint_one(name: str, acceleration: str) -> None:
     staggered state itself the joint system has nothing left to do."""
     problem, changes = SCENES[name]
     left = JointUpdate()
-    joint = problem.run(*changes)
+    joint = solved_jointly(name)
     turns = problem.run(*changes, TURNS, f"solver.acceleration={acceleration}", listeners=[left])
     assert turns["stretch"] == pytest.approx(joint["stretch"], abs=1e-6)
     assert max(left.updates) < 1e-8
@@ -184,6 +195,7 @@ def test_once_in_free_space_is_exact_for_a_sphere() -> None:
     assert max(solution["coupling_gap"]) < 1e-3
 
 
+@pytest.mark.estimated
 def test_once_in_a_grounded_sphere() -> None:
     """The pull stays that of the undeformed sphere, w / (1 - 1/4)^2: too small by what the gap says."""
     changes = ("model.interface=closed", "path=[{steps = 4}]", "discretisation.order=4")
@@ -192,7 +204,8 @@ def test_once_in_a_grounded_sphere() -> None:
     stretches = np.array([stretch_under(load) for load in loads])
     assert solution["stretch"] == pytest.approx(stretches, abs=1e-5)
     assert solution["coupling_gap"] == pytest.approx((0.75 / (1 - stretches / 4)) ** 2 - 1, rel=1e-3)
-    joint = grounded_balloon.run(*changes)
+    with unestimated():
+        joint = grounded_balloon.run(*changes)
     short = (joint["stretch"][-1] - solution["stretch"][-1]) / joint["stretch"][-1]
     assert solution.errors["stretch"].parts["ambient and coupling"] == pytest.approx(short, rel=0.5)
 

@@ -33,6 +33,8 @@ from embedding.solving.newton import LARGEST_UPDATE, Newton
 from embedding.solving.state import State
 from problems.exact import cylinder, sphere
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 R, MU = 0.02, 1e5
 
 
@@ -179,6 +181,7 @@ class Interrupt(Listener):
             raise KeyboardInterrupt
 
 
+@pytest.mark.estimated
 @pytest.mark.parametrize("charged", [False, True])
 def test_an_interrupt_leaves_the_last_good_state(charged: bool) -> None:
     made = Run(balloon(Stage(steps=3), charged=charged), [Interrupt()])

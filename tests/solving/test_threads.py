@@ -9,6 +9,8 @@ import pytest
 
 from embedding import Listener, load_scene, solve
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 CASES = {
     "a field": ("charged_balloon", "path.0.steps=1", "discretisation.order=2", "discretisation.shell_size=0.02"),
     "a membrane in 3D": ("hencky_membrane", "model.reduction=3d", "discretisation.order=2", "path.0.steps=2"),

@@ -8,6 +8,8 @@ import pytest
 
 from embedding import Scene, SceneError, solve
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 UNIFORM, EXPRESSION = [0.0, 0.0, 4e4], {"expression": ["0", "0", "4e4"]}
 
 
