@@ -38,6 +38,8 @@ from embedding.scene import EPSILON_0
 from embedding.solving.driver import Run
 from embedding.solving.problem import Problem
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 MU = 1e5
 
 

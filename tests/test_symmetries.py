@@ -28,6 +28,8 @@ from embedding import (
 )
 from embedding.scene import EPSILON_0
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 R, MU = 0.02, 1e5
 FIELD = math.sqrt(MU / EPSILON_0)
 """The field whose Maxwell stress is of the size of the modulus."""

@@ -10,6 +10,8 @@ from embedding import Scene, solve
 from embedding.plan import explain
 from problems import charged_balloon, cylinder_inflation, grounded_balloon, permeable_sphere
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 
 def told(scene: Scene) -> str:
     return next((one.reason for one in explain(scene).decisions if one.topic == "solution"), "")

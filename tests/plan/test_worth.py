@@ -13,6 +13,8 @@ from embedding import explain
 from embedding.plan.allowance import SAFE
 from embedding.scene.accuracy import COARSEST
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 WILD = 10.0
 """An estimate larger than the truth by more than that would keep terms for nothing."""
 NAMES = [f"{case.term}: {case.name}" for case in CASES]

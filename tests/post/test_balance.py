@@ -15,6 +15,8 @@ from tests.balloons import SMALL
 from tests.bent import clamped, mesh, metal, scene_of
 from tests.post import runs
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 PROBLEMS = Path(charged_balloon.__file__).parent
 STRIP = scene_of(
     {"kind": "strip", "length": 10.0}, 0.1, metal(youngs_modulus=1.2e6), supports=clamped("x0"),

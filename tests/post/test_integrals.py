@@ -16,6 +16,8 @@ from problems import charged_disc
 from tests.archive.made_up_run import LENGTH, Problem, tell
 from tests.post import runs
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 PROBLEMS = Path(charged_disc.__file__).parent
 DISC = """
 name = "inflated disc"

@@ -17,6 +17,8 @@ from problems import cantilever_moment
 from tests.archive.made_up_run import LENGTH, VOLTAGE, Problem, tell
 from tests.post import runs
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 REDUCTIONS = ("axisymmetric", "plane-strain", "3d")
 
 

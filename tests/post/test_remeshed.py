@@ -14,6 +14,8 @@ from embedding.scene.scales import EPSILON_0
 from embedding.solving import session
 from problems import grounded_balloon, turned_in_a_field
 
+pytestmark = pytest.mark.usefixtures("unestimated")
+
 OUTER = 0.08  # radius of the grounded sphere
 
 
