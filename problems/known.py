@@ -225,8 +225,27 @@ def bent() -> Iterator[Known]:
     yield Known("slit annulus", stated, "u_outer_z", outer, "theory", 5e-3)
 
 
+# -- loads that take the shell to a displacement
+
+
+def loads() -> Iterator[Known]:
+    """The voltage at which a balloon has grown to a size, and the pressure of a membrane beyond its limit point."""
+    radius, stretch = 20e-3, 1.3
+    until = f"{{where=[0, 0, {radius}], axis='z', value={radius * (stretch - 1.0)}}}"
+    stated = charged_balloon.scene("shell.thickness=1 mm", f"path=[{{until={until}}}]")
+    voltage = charged_balloon.exact(stated).voltage(stretch)
+    yield Known("charged balloon, up to a size", stated, "voltage", voltage, "solid")
+    stated = load_scene(circular_membrane.SCENE, ())
+    law, high = law_of(stated), stated.path[0].until
+    if high is None:
+        raise ValueError("the membrane is blown up to a height")
+    known = exact_membrane.at_deflection(high.value / circular_membrane.RADIUS, law).pressure
+    pressure = known * law.shear_modulus * thickness_ratio(stated)
+    yield Known("blown-up membrane, up to a height", stated, "pressure_difference", pressure, "theory")
+
+
 @cache
 def all_known() -> tuple[Known, ...]:
     """Every scene with a known answer."""
-    groups: tuple[Callable[[], Iterator[Known]], ...] = (balloons, conductors, permeable, membranes, bent)
+    groups: tuple[Callable[[], Iterator[Known]], ...] = (balloons, conductors, permeable, membranes, bent, loads)
     return tuple(known for group in groups for known in group())

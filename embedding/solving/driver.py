@@ -19,7 +19,7 @@ from embedding.solving.assumptions import check_assumptions
 from embedding.solving.branches import BranchAsked
 from embedding.solving.continuation import Condition, at_parameter
 from embedding.solving.diagnosis import out_of_theory
-from embedding.solving.estimate import default_quantity, estimate_errors
+from embedding.solving.estimate import Ending, default_quantity, estimate_errors
 from embedding.solving.estimate.estimate import COUNTED
 from embedding.solving.events import Listener
 from embedding.solving.health import check_health
@@ -73,7 +73,7 @@ class Run(Session):
                     break
             with part("estimate"):
                 if result.ok:
-                    estimates = estimate_errors(self.problem, self.at, self.steps)
+                    estimates = estimate_errors(self.problem, self.at, self.steps, self._ending)
                     errors = estimates.errors
                     health = check_health(self.problem, estimates, self.steps, self.branches)
         except KeyboardInterrupt:
@@ -104,7 +104,8 @@ class Run(Session):
         """The largest error of the scalars that count as the answer."""
         if not errors:
             return None
-        names = self._asked or (default_quantity(self.problem, self.steps[-1].scalars, self.at),)
+        scalars = self.steps[-1].scalars
+        names = self._asked or (default_quantity(self.problem, scalars, self.at, self._ending),)
         found = [errors[name] for name in names if name in errors]
         return max(found, key=lambda error: error.value, default=None)
 
@@ -154,6 +155,15 @@ class Run(Session):
             return [Condition(row, 0.0, value)]
         steps = stage.steps or DEFAULT_STEPS
         return [Condition(row, 0.0, float(part)) for part in np.linspace(0.0, value, steps + 1)[1:]]
+
+    @property
+    def _ending(self) -> Ending | None:
+        """Where the last stage ended, if at a displacement."""
+        way, number = self.way, len(self.scene.path) - 1
+        until = self.scene.path[number].until
+        if until is None or not isinstance(way, ArcStage):
+            return None
+        return Ending(until, number, way.begin, way.end, way.path.parameter)
 
     def _stage_start(self, stage: Stage) -> Target:
         """The present load, with the volume or pressure the stage's control starts from."""

@@ -23,6 +23,7 @@ from embedding.coupling.unknowns import assembled_in_batches
 from embedding.geometry.domain import Domain
 from embedding.geometry.ends import unknowns_on
 from embedding.shell.bending import CurveBending, SurfaceBending
+from embedding.solving.estimate.ending import Ending
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem, physics_of
 from embedding.solving.state import State
@@ -55,7 +56,7 @@ class Enriched(Problem):
     """The same problem with the fields of ``domain``, of one order more on the same elements, started from the present
     state. ``loads`` is the norm of all nodal loads, dimensionless, once responses are known."""
 
-    def __init__(self, problem: Problem, domain: Domain) -> None:
+    def __init__(self, problem: Problem, domain: Domain, ending: Ending | None = None) -> None:
         self.scene, self.plan, self.scales = problem.scene, problem.plan, problem.scales
         self.reduction = problem.reduction
         self.domain = domain
@@ -71,8 +72,16 @@ class Enriched(Problem):
                 counted.continue_from(present)
         self.system.ambient_as_in(problem.system)
         self.system.restore(self.system.save())  # the state did not get here by Newton steps
-        self.state = State(self)
+        self.state, self._ending = State(self), ending
         self.loads = 0.0
+
+    def scalars(self) -> Scalars:
+        """Those of the present state, with the displacement at which the last stage has ended, if it did at one."""
+        return self.state.scalars() | (self._ending.moved(self) if self._ending is not None else {})
+
+    def slopes(self) -> Scalars | None:
+        """What the scalars change by along the path at its end, see :meth:`Ending.slopes`."""
+        return None if self._ending is None else self._ending.slopes(self, self.scalars)
 
     def _carry(self, name: str, problem: Problem) -> None:
         richer, present = self.system.unknowns.field(name), problem.system.unknowns.field(name)
@@ -127,7 +136,7 @@ class Enriched(Problem):
         def before() -> None:
             at_once.append(self._rows())
             self._solve_potential()
-            at_once.extend((self._rows(), self.state.scalars()))
+            at_once.extend((self._rows(), self.scalars()))
 
         if curved:
             self._forget_potential()
@@ -135,7 +144,7 @@ class Enriched(Problem):
             self._forget_potential()
         own = at_once[0] if curved else self._rows()
         self._solve_potential()
-        start, solved = self.state.scalars(), system.save()
+        start, solved = self.scalars(), system.save()
         system.linearise()
         parts = {"shell": self._moved(own, start, solved)}
         if curved:
@@ -151,7 +160,7 @@ class Enriched(Problem):
         load.FV().NumPy()[:] = rows
         step = self.system.solve(load)
         self.system.unknowns.state.vec.data -= step
-        moved = self.state.scalars() if self.system.follow() else start
+        moved = self.scalars() if self.system.follow() else start
         self._put(state)
         return {name: moved[name] - start[name] for name in start}
 
@@ -185,7 +194,7 @@ class Enriched(Problem):
         """
         if self.held and not self.plan.opened:
             self._solve_potential()
-            return self.state.scalars()
+            return self.scalars()
         self._solve_potential()
         first, gone, part = self.system.residual(), 0.0, 1.0
         while gone < 1.0:
@@ -198,7 +207,7 @@ class Enriched(Problem):
                 self._put(reached)
                 part *= 0.25
         self._solve_potential()
-        return self.state.scalars()
+        return self.scalars()
 
     def _newton(self, first: Any, left: float) -> bool:
         """Solve for a residual of ``left`` times the ``first``; False if Newton's method does not settle."""
@@ -233,7 +242,7 @@ class Enriched(Problem):
 
     def _responses(self, target: Target) -> dict[str, Scalars]:
         system, kept = self.system, self.system.save()
-        start, found = self.state.scalars(), dict[str, Scalars]()
+        start, found = self.scalars(), dict[str, Scalars]()
         present = self._forces(target, 1.0, 1.0)
         for name, factors in {"all": (NUDGED, NUDGED), "field": (1.0, NUDGED)}.items():
             if name == "field" and system.physics.field is None:
@@ -248,7 +257,7 @@ class Enriched(Problem):
                 self._put(kept)
                 continue
             self._solve_potential()
-            moved = self.state.scalars()
+            moved = self.scalars()
             found[name] = {one: (moved[one] - start[one]) / (NUDGED - 1.0) for one in start}
             for face, pressure in zip(("top", "bottom"), self.state.field_pressures(), strict=True):
                 # multipliers of opened faces are the pulls at the nudged load

@@ -32,6 +32,7 @@ from embedding.geometry.remeshing import one_order_more
 from embedding.plan.coefficients import CLOSED_FACES, RIMS
 from embedding.plan.far_field import reach_of
 from embedding.solving.estimate.bent import Bent
+from embedding.solving.estimate.ending import Ending, at_displacement
 from embedding.solving.estimate.enriched import Changes, Enriched
 from embedding.solving.estimate.theory import Wall, law_of, wall_of
 from embedding.solving.events import StepRecord
@@ -75,14 +76,19 @@ class Estimates:
     loads: float
 
 
-def estimate_errors(problem: Problem, target: Target, steps: Sequence[StepRecord]) -> Estimates:
-    """Error estimates of all scalars at the present, converged state, the last of ``steps``."""
-    scalars = {name: value for name, value in steps[-1].scalars.items() if name not in COUNTED and value != 0.0}
+def estimate_errors(
+    problem: Problem, target: Target, steps: Sequence[StepRecord], ending: Ending | None = None
+) -> Estimates:
+    """Error estimates of all scalars at the present, converged state, the last of ``steps``: at its load, or at the
+    displacement that was the ``ending`` of its stage."""
+    answers = {name: value for name, value in steps[-1].scalars.items() if name not in COUNTED and value != 0.0}
+    scalars = answers | (ending.moved(problem) if ending is not None else {})
     with one_order_more(problem.domain) as domain:
-        richer = Enriched(problem, domain)
+        richer = Enriched(problem, domain, ending)
         changes = richer.improve(target, scalars, _straight(problem))
         solved = changes is not None and not richer.held
         responses = richer.responses(target) if solved else None
+        slopes = richer.slopes() if responses is not None else None
         condition = richer.condition() if solved else None
     singular = solved and responses is None
     method = _method(problem, changes, singular=singular)
@@ -92,7 +98,11 @@ def estimate_errors(problem: Problem, target: Target, steps: Sequence[StepRecord
     sources |= _theory(problem, wall, scalars, responses) | _field(problem, wall, scalars, responses)
     sources["solver"] = {name: _last_update(problem, steps[-1]) for name in scalars if _moves(name)}
     whole = {} if changes is None else {n: limit * change for n, change in changes.whole.items()}
-    errors = {name: _sum(name, value, sources, whole, method) for name, value in scalars.items()}
+    if slopes is not None:
+        bounds = ("solver", "opened faces") if wall is None or _misplaced_inside(problem, wall) else ("solver",)
+        sources = {name: at_displacement(found, slopes, bounds=name in bounds) for name, found in sources.items()}
+        whole = at_displacement(whole, slopes)
+    errors = {name: _sum(name, value, sources, whole, method) for name, value in answers.items()}
     moved, answer = scalars.get("displacement", 0.0), responses.get("all", {}).get("displacement")
     response = None if answer is None or moved == 0.0 else abs(answer / moved)
     if singular:
@@ -100,9 +110,12 @@ def estimate_errors(problem: Problem, target: Target, steps: Sequence[StepRecord
     return Estimates(errors, response, condition, richer.loads)
 
 
-def default_quantity(problem: Problem, scalars: Scalars, target: Target) -> str:
+def default_quantity(problem: Problem, scalars: Scalars, target: Target, ending: Ending | None) -> str:
     """The scalar that counts as the answer unless the scene says otherwise: the pressure difference where the path
-    controls the volume, the field's energy or the pull around a shell that is held, else the displacement."""
+    controls the volume, the load where it ends at a displacement, the field's energy or the pull around a shell that is
+    held, else the displacement."""
+    if ending is not None:
+        return ending.answer(scalars)
     if target.volume is not None:
         return "pressure_difference"
     if problem.held:
