@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -22,6 +23,11 @@ STEPS = "path=[{steps = 4}]"
 RADIUS = 0.02
 
 
+@cache
+def charged(*changes: str) -> Solution:
+    return charged_balloon.run(*changes)
+
+
 def face_radius(solution: Solution, ratio: float) -> Array:
     """Outer face of the shell, at T lambda / 2 beyond the mid-surface, with lambda = 1 / l^2."""
     stretch = solution["stretch"]
@@ -36,7 +42,7 @@ def pull(solution: Solution, face: Array) -> Array:
 @pytest.mark.parametrize("ratio", [0.1, 0.05])
 @pytest.mark.parametrize(("mesh", "tolerance"), [(THIRD_ORDER, 1e-5), (FOURTH_ORDER, 1e-6)])
 def test_closed_form_on_both_faces(ratio: float, mesh: tuple[str, ...], tolerance: float) -> None:
-    solution = charged_balloon.run(*charged_balloon.at(ratio, 1.2), *mesh, STEPS)
+    solution = charged(*charged_balloon.at(ratio, 1.2), *mesh, STEPS)
     top, bottom = solution.pressures
     assert top == pytest.approx(pull(solution, face_radius(solution, ratio)), rel=tolerance)
     assert np.abs(bottom).max() < 1e-15 * np.abs(top).max(), "no field inside a closed conductor"
@@ -46,7 +52,7 @@ def test_second_order_against_the_true_face() -> None:
     """The thick wall's own outer face is where the shell's is up to T^2, and so are the pressures."""
     errors = []
     for ratio in (0.1, 0.05):
-        solution = charged_balloon.run(*charged_balloon.at(ratio, 1.2), *FOURTH_ORDER, STEPS)
+        solution = charged(*charged_balloon.at(ratio, 1.2), *FOURTH_ORDER, STEPS)
         shell = charged_balloon.exact(solution.scene)
         faces = np.array([shell.face_radius(float(stretch)) for stretch in solution["stretch"]])
         errors.append(float(np.abs(solution["pressure_top"] / pull(solution, faces) - 1.0).max()))
@@ -55,7 +61,7 @@ def test_second_order_against_the_true_face() -> None:
 
 
 def test_closed_interface_recovers_the_pressure_from_nodal_forces() -> None:
-    solution = charged_balloon.run("model.interface=closed", *FOURTH_ORDER, STEPS)
+    solution = charged("model.interface=closed", *FOURTH_ORDER, STEPS)
     top, bottom = solution.pressures
     assert top == pytest.approx(pull(solution, RADIUS * solution["stretch"]), rel=1e-5)
     assert np.abs(bottom).max() < 1e-12 * np.abs(top).max()
@@ -138,7 +144,7 @@ def test_face_forces_sum_to_zero(interface: str) -> None:
     """A lone charge pulls itself nowhere. The scale is the pull on half of it, p pi b^2; the rest is the mesh's."""
     found = []
     for mesh in ((), FOURTH_ORDER):
-        solution = charged_balloon.run(f"model.interface={interface}", *mesh, STEPS)
+        solution = charged(f"model.interface={interface}", *mesh, STEPS)
         half = np.abs(solution["pressure_top"]) * math.pi * face_radius(solution, 0.05) ** 2
         found.append(float(np.abs(solution["force_z"] / half).max()))
     assert found[0] < 5e-5

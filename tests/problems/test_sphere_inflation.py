@@ -6,9 +6,11 @@ The accuracy of the limit points is that of the discretisation (below 1e-8 of p 
 
 from __future__ import annotations
 
+from functools import cache
+
 import pytest
 
-from embedding import Listener, Result, SolveError, solve
+from embedding import Listener, Result, Solution, SolveError, solve
 from embedding.solving.events import StepRecord
 from embedding.solving.state import State
 from problems import sphere_inflation
@@ -24,8 +26,13 @@ TOO_MUCH = ("loads.pressure_bottom=1650 Pa", "path=[{steps = 6}]", "solver.min_s
 SOLID = ("model.reduction=3d", "discretisation.shell_size=6 mm")
 
 
+@cache
+def to_the_end(*changes: str) -> Solution:
+    return sphere_inflation.run(*changes)
+
+
 def test_limit_point_and_far_beyond() -> None:
-    solution = sphere_inflation.run()
+    solution = to_the_end()
     (found,) = sphere_inflation.limit_points(solution)
     assert found.stretch == pytest.approx(LIMIT_STRETCH, abs=1e-6)
     assert found.load == pytest.approx(LIMIT_LOAD, abs=1e-6)
@@ -34,7 +41,7 @@ def test_limit_point_and_far_beyond() -> None:
 
 
 def test_mooney_rivlin_has_a_maximum_and_a_minimum() -> None:
-    solution = sphere_inflation.run(MOONEY_RIVLIN)
+    solution = to_the_end(MOONEY_RIVLIN)
     maximum, minimum = sphere_inflation.limit_points(solution)
     assert maximum == pytest.approx((1.47606984746, 1.35510686880), abs=1e-6)
     assert minimum == pytest.approx((3.14262133321, 1.14874772529), abs=1e-5)
@@ -47,7 +54,7 @@ def test_mooney_rivlin_has_a_maximum_and_a_minimum() -> None:
 @pytest.mark.parametrize(("law", "places"), [(None, (5e-8,)), (MOONEY_RIVLIN, (5e-7, 5e-6))])
 def test_how_well_limit_points_are_located(law: str | None, places: tuple[float, ...]) -> None:
     """The spline through exact pressures at the computed stretches: what is left is its own error."""
-    solution = sphere_inflation.run(*([law] if law else []))
+    solution = to_the_end(*([law] if law else []))
     found = sphere_inflation.extrema(solution["stretch"], sphere_inflation.reference(solution))
     known = sphere_inflation.reference_limit_points(solution.scene)
     for point, exact, place in zip(found, known, places, strict=True):
