@@ -108,7 +108,8 @@ def _resumed(path: Name, scene: Scene) -> tuple[Recorder, Kept]:
 
     archive = resumable(path)
     if archive.scene_object() != scene:
-        raise ArchiveError(f"{path}: is the archive of another scene: only the run of the same scene can go on")
+        hint = ", as each attempt at an accuracy is: embedding resume goes on with that" if scene.accuracy else ""
+        raise ArchiveError(f"{path}: is the archive of another scene{hint}: only the run of the same scene can go on")
     known = kept(archive, scene)
     return Recorder.going_on(archive), known
 
@@ -142,6 +143,10 @@ def _solved(
             watching.append(stack.enter_context(ProgressDisplay()))
         everyone = [*watching, *listeners]
         solution = run(scene, everyone, known) if neighbour is None else run_from(scene, neighbour, everyone)
+    if known is not None and scene.accuracy is not None:
+        from embedding.accuracy.dial import resumed
+
+        solution = resumed(solution)
     if recorder is not None:
         solution = replace(solution, archive=recorder.path)
         if solution.result is Result.INTERRUPTED and solution.steps:

@@ -7,6 +7,7 @@ model of this library can give, as the thickness of a thick wall, ends it at onc
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
@@ -14,33 +15,39 @@ from embedding.accuracy.levels import Level, first_level, ladder, next_level
 from embedding.errors import SceneError
 from embedding.plan import explain
 from embedding.plan.decisions import Plan
+from embedding.plan.loading import Loading
 from embedding.scene import Scene
 from embedding.solving.assumptions import raised
 from embedding.solving.result import Result
 from embedding.solving.solution import DISCRETE, Assumption, Attempt, ErrorEstimate, Solution
 
 COUNTED = ("thin shell", "interface", "far field")
-"""Assumptions that the error estimate has a part for, nearer to the truth than their bounds. On a closed shell that is
-stretched, what a thick wall resists more is in the part of its thickness."""
+"""Assumptions that the error estimate has a part for, nearer to the truth than their bounds."""
 SURE = 1.25
 """An estimate is trusted to this factor: that of nine in ten problems with a known answer is within it from below
 (tests/solving/test_effectivity)."""
 SHARE = 0.6
 """Part of what the model leaves of the accuracy that the discretisation may take at the next attempt."""
-LEFT = 1e-4
-"""Part of the accuracy at which Newton's method may end; it has made one more update by then."""
+LEFT, TOO_MUCH, ROUNDING = 1e-4, 0.1, 1e-14
+"""Part of the accuracy at which Newton's method may end, in sizes of the shell; it has made one more update by then.
+A shell that hardly moves has more left of its answer: where that is ``TOO_MUCH`` of the accuracy, Newton's method goes
+on to a hundredth of it, if rounding lets it."""
+GAINING, PATIENCE = 0.7, 2
+"""The mesh is given up where the last ``PATIENCE`` refinements left more than this of the discretisation's part."""
 CANNOT = (Result.INTERRUPTED, Result.MAX_ARC, Result.MAX_STEPS, Result.LIMIT_POINT, Result.PULL_IN)
 """Ends of a path that are the scene's own, and no mesh's."""
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What follows an attempt: the ``result`` that ends it all, or the ``scene`` (and ``level``) to go on with."""
+    """What follows an attempt: the ``result`` that ends it all, or the ``scene`` (and ``level``) to go on with, and
+    another ``tolerance`` for it."""
 
     reason: str
     result: Result | None = None
     scene: Scene | None = None
     level: Level | None = None
+    tolerance: float | None = None
 
 
 def solve_to_accuracy(scene: Scene, solve: Callable[[Scene], Solution]) -> Solution:
@@ -53,10 +60,12 @@ def solve_to_accuracy(scene: Scene, solve: Callable[[Scene], Solution]) -> Solut
     if scene.accuracy is None:
         return solve(scene)
     level, attempts = first_level(plan, scene.accuracy.relative), list[Attempt]()
+    tolerance, parts = _tolerance(stated, scene.accuracy.relative), list[float]()
     while True:
-        changes = (*level.changes(stated, plan), *_tolerance(stated, scene.accuracy.relative))
+        changes = (*level.changes(stated, plan), *((f"solver.tolerance={tolerance}",) if tolerance else ()))
         solution = solve(stated.with_overrides(changes))
-        verdict = _judged(stated, plan, level, solution, scene.accuracy.relative)
+        parts.append(math.inf if solution.error is None else solution.error.discretisation)
+        verdict = _judged(stated, plan, level, solution, parts)
         value = None if solution.error is None else solution.error.value
         cost = solution.cost
         told = (*_model_changes(scene, stated), *changes)
@@ -65,19 +74,44 @@ def solve_to_accuracy(scene: Scene, solve: Callable[[Scene], Solution]) -> Solut
             message = f"{verdict.reason}: {verdict.result.advice}" if verdict.reason else solution.message
             ended = verdict.result if solution.result.ok else solution.result
             return replace(solution, result=ended, message=message, attempts=tuple(attempts))
+        if verdict.tolerance is not None:
+            tolerance = verdict.tolerance
+            parts.pop()
         if verdict.scene is not None and verdict.level is not None:
             stated, level = verdict.scene, verdict.level
             plan = explain(stated)
 
 
-def _tolerance(scene: Scene, relative: float) -> tuple[str, ...]:
+def resumed(solution: Solution) -> Solution:
+    """The ``solution`` of an attempt that was resumed, which no other follows: with the accuracy that its scene asks
+    for, or with the result that it has not."""
+    asked, error = solution.scene.accuracy, solution.error
+    if asked is None or error is None or not solution.result.ok or SURE * error.value <= asked.relative:
+        return solution
+    told = f"the error estimate is {error.value:.1e}, of {asked.relative:g}, and a run that is resumed is not refined"
+    message = f"{told}. Solve the scene again, from its file"
+    return replace(solution, result=Result.ACCURACY_NOT_REACHED, message=message)
+
+
+def _tolerance(scene: Scene, relative: float) -> float | None:
     """Newton's method ends where what it leaves is next to nothing of the accuracy, unless the scene says where."""
     needed, default = LEFT * relative, type(scene.solver).model_fields["tolerance"].default
-    return (f"solver.tolerance={needed}",) if scene.solver.tolerance == default < needed else ()
+    return needed if scene.solver.tolerance == default < needed else None
 
 
-def _judged(scene: Scene, plan: Plan, level: Level, solution: Solution, relative: float) -> Verdict:
-    """What to do after an attempt on ``level``."""
+def _tighter(scene: Scene, solution: Solution, relative: float) -> float | None:
+    """The tolerance at which Newton's method is to end instead, where it ended too early for the answer."""
+    left = 0.0 if solution.error is None else solution.error.parts.get("solver", 0.0)
+    stated, used = scene.solver.tolerance, solution.scene.solver.tolerance
+    if left <= TOO_MUCH * relative or stated != type(scene.solver).model_fields["tolerance"].default:
+        return None
+    needed = max(ROUNDING, used * min(1.0, relative / left) * TOO_MUCH**2)
+    return needed if needed < 0.5 * used else None
+
+
+def _judged(scene: Scene, plan: Plan, level: Level, solution: Solution, parts: Sequence[float]) -> Verdict:
+    """What to do after an attempt on ``level``; ``parts`` are those of the discretisation so far."""
+    relative = scene.accuracy.relative if scene.accuracy is not None else math.inf
     if solution.result in CANNOT:
         return Verdict("", solution.result)
     if solution.result.ok and solution.error is None:
@@ -95,12 +129,20 @@ def _judged(scene: Scene, plan: Plan, level: Level, solution: Solution, relative
     error = solution.error
     if SURE * error.value <= relative:
         return Verdict("", Result.CONVERGED)
+    tighter = _tighter(scene, solution, relative)
+    if tighter is not None:
+        told = f"Newton's method left {error.parts['solver']:.1e} of the answer"
+        return Verdict(told, scene=scene, level=level, tolerance=tighter)
     model = SURE * (error.value - error.discretisation)
     if model >= relative:
         return _beyond(scene, level, error, model, relative)
     excess = error.discretisation / (SHARE * (relative - model))
     ambient = sum(part for source, part in error.parts.items() if source.startswith("ambient"))
     at_edges = bool(plan.sizes.edges) and ambient > 0.5 * error.discretisation
+    if len(parts) > PATIENCE and parts[-1] > GAINING * parts[-1 - PATIENCE]:
+        worst = max((name for name in DISCRETE if name in error.parts), key=lambda name: error.parts[name])
+        told = f"{worst} {error.parts[worst]:.1e}, of {relative:g} in all, does not become less on finer meshes"
+        return Verdict(told, Result.BEYOND_THE_MODEL)
     return _finer(scene, plan, level, excess, solution, at_edges=at_edges)
 
 
@@ -148,9 +190,10 @@ BETTER = {"closed faces": "model.interface=opened", "far field": "model.far_fiel
 
 
 def _violations(scene: Scene, solution: Solution) -> list[Assumption]:
-    """What the plan must not leave out and no part of the error counts."""
+    """What the plan must not leave out and no part of the error counts. Where a shell grows alike everywhere that of
+    the thickness counts its bending; else bending moves some points more than others."""
     counted = set(COUNTED)
-    if scene.shell.shape.closed and solution.error is not None and "thickness" in solution.error.parts:
+    if Loading(scene).homogeneous and solution.error is not None and "thickness" in solution.error.parts:
         counted.add("shell theory")
     return [one for one in solution.assumptions if not one.held and one.topic not in counted]
 

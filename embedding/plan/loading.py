@@ -195,11 +195,14 @@ class Loading:
 
     def _response_of(self, name: str) -> float:
         """That of the stretch, c; of a displacement l c / (l - 1), or a third on a flat shell that its own deflection
-        tightens; else 1."""
+        tightens; else 1, and at a given volume."""
         stretch, response = self.answer
+        if self.controlled and name in (*STRETCHES, "displacement"):
+            # the volume of a shell that grows alike everywhere says all; of another it leaves the shape open
+            return 0.0 if self.homogeneous else STRETCHES.get(name, 1.0)
         if name in STRETCHES:
-            return 0.0 if self.controlled else STRETCHES[name] * response
-        if not is_displacement(name):
+            return STRETCHES[name] * response
+        if not is_displacement(name) or self.controlled:
             return 1.0
         if self.form == "flat":
             return TIGHTENED if self._held_all_around and self._stretched_beforehand == 0.0 else 1.0

@@ -14,7 +14,7 @@ from ngsolve import InnerProduct, Inv, OuterProduct, Trace
 
 from embedding.plan.coefficients import BENT, CLOSED_FACES, MEMBRANE, ROBIN
 from embedding.plan.effects import Effects
-from embedding.plan.loading import STRETCHES, TIGHTENED, is_displacement
+from embedding.plan.loading import STRETCHES, TIGHTENED, Loading, is_displacement
 from embedding.plan.response import Answer
 from embedding.shell.derivatives import Derivatives
 from embedding.shell.kinematics import Kinematics
@@ -60,11 +60,18 @@ class Neglected:
         """Of one answer, where that ``part`` of the load changed in the last steps."""
         physics = self.problem.system.physics
         if is_displacement(name):
-            return max(slope(self.steps, name, with_field=physics.field is not None) / part, TIGHTENED)
+            found = max(slope(self.steps, name, with_field=physics.field is not None) / part, TIGHTENED)
+            return found * self._smallness(name)
         if name not in STRETCHES:
             return 1.0
-        found = 0.0 if physics.volume_controlled else slope(self.steps, name, with_field=physics.field is not None)
-        return found / part
+        if physics.volume_controlled:
+            return 0.0 if Loading(self.problem.scene).homogeneous else STRETCHES[name]
+        return slope(self.steps, name, with_field=physics.field is not None) / part
+
+    def _smallness(self, name: str) -> float:
+        """How much less than the shell as a whole a point moves: what changes all moves it as much as the rest."""
+        whole, here = abs(self.scalars["displacement"]), abs(self.scalars.get(name, 0.0))
+        return max(whole / here, 1.0) if here > 0.0 else 1.0
 
     @cached_property
     def slenderness(self) -> float:

@@ -39,7 +39,8 @@ class Ramp:
             if session.worn:
                 self._remeshed()
             target = end.between(self.start, fraction)
-            reason = step(session, self.stage, target, self._forecast.at(fraction))
+            whole = stepper.relative_length >= 1.0  # where steps fail, a guess would fail once more for each
+            reason = step(session, self.stage, target, self._forecast.at(fraction) if whole else None)
             if reason is Result.INVERTED_AMBIENT and session.tired:
                 reason = step(session, self.stage, target) if self._remeshed() else reason
             if reason is None:

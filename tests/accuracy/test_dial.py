@@ -7,7 +7,18 @@ from pathlib import Path
 
 import pytest
 
-from embedding import Listener, Scene, SceneError, Solution, SolveError, load_scene, open_archive, solve
+from embedding import (
+    ArchiveError,
+    Listener,
+    Scene,
+    SceneError,
+    Solution,
+    SolveError,
+    load_scene,
+    open_archive,
+    resume,
+    solve,
+)
 from embedding.accuracy import solve_to_accuracy
 from embedding.accuracy.levels import Level, first_level, ladder, next_level
 from embedding.cli import main
@@ -171,3 +182,84 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert "attempt 1" in told and "0.001 is asked" in told
     assert main(["info", str(archive)]) == 0
     assert "0.001 asked: reached" in capsys.readouterr().out
+
+
+DISC = """
+name = "plate"
+[shell]
+shape = { kind = "disc", radius = 0.5 }
+thickness = 0.001
+material = { law = "st-venant-kirchhoff", youngs_modulus = 2e11, poisson_ratio = 0.3 }
+[[supports]]
+where = "rim"
+kind = "clamped"
+[loads]
+variant = "net"
+[output]
+points = { middle = [0, 0, 0] }
+[[path]]
+steps = 1
+"""
+
+
+@pytest.mark.parametrize("deflection", [1e-9, 1e-7])
+def test_a_shell_that_hardly_moves(deflection: float) -> None:
+    """In one step: Newton's method goes on where its tolerance, in sizes of the shell, is much of so small an answer."""
+    stiffness = 2e11 * 0.001**3 / 12.0 / (1.0 - 0.3**2)
+    pressure = deflection * 64.0 * stiffness / 0.5**4
+    wanted = "accuracy={relative = 1e-2, of = ['u_middle_z']}"
+    solution = solve(Scene.from_toml(DISC).with_overrides([f"loads.pressure_bottom={pressure!r}", wanted]))
+    assert solution.steps[-1].scalars["u_middle_z"] == pytest.approx(deflection, rel=1e-4)
+    assert len(solution.attempts) > 1 and "Newton's method left" in solution.attempts[0].reason
+
+
+def test_a_mesh_is_given_up_where_it_is_not_to_blame() -> None:
+    solution = solve(charged_balloon.scene("model.coupling=once", "accuracy=1e-2"), throw=False)
+    assert solution.result is Result.BEYOND_THE_MODEL and len(solution.attempts) == 3
+    assert solution.message.startswith("ambient and coupling 6.8e-02, of 0.01 in all, does not become less on finer")
+
+
+PROLATE = """
+name = "prolate"
+[shell]
+shape = { kind = "ellipsoid", semi_axes = [0.02, 0.02, 0.03] }
+thickness = "1 mm"
+material = { law = "neo-hookean", shear_modulus = "50 kPa" }
+[output]
+points = { pole = [0, 0, 0.03] }
+[discretisation]
+order = 4
+"""
+BY_VOLUME, BY_PRESSURE = "path=[{control='volume', volume_ratio=1.2, steps=4}]", "path=[{steps=3}]"
+
+
+@pytest.mark.parametrize(
+    ("changes", "relative"),
+    [((BY_VOLUME,), 1e-3), ((BY_PRESSURE, "loads.pressure_bottom=400", "shell.thickness=0.4 mm"), 1e-2)],
+    ids=["volume", "pressure"],
+)
+def test_bending_of_a_point_that_moves_little(changes: tuple[str, ...], relative: float) -> None:
+    """The pole of a balloon that is longer than wide moves a fortieth of what its equator does: what bending is worth
+    to the whole moves it as much, and is forty times as much of it."""
+    scene = Scene.from_toml(PROLATE).with_overrides(changes)
+    wanted = f"accuracy={{relative = {relative!r}, of = ['u_pole_z']}}"
+    bent, thin = (solve(scene.with_overrides([f"model.theory={name}"])) for name in ("bending", "membrane"))
+    known, left_out = (found.steps[-1].scalars["u_pole_z"] for found in (bent, thin))
+    assert abs(left_out / known - 1.0) > 2.0 * relative
+    solution = solve(scene.with_overrides([wanted]))
+    assert abs(solution.steps[-1].scalars["u_pole_z"] / known - 1.0) < relative
+
+
+def test_a_resumed_attempt_says_whether_it_is_enough(tmp_path: Path) -> None:
+    class Stop(Listener):
+        def accepted(self, state, record) -> None:  # type: ignore[no-untyped-def]
+            if record.number == 2:
+                raise KeyboardInterrupt
+
+    path = tmp_path / "run.vtkhdf"
+    for relative, result in ((1e-4, Result.ACCURACY_NOT_REACHED), (1e-3, Result.CONVERGED)):
+        scene = charged_balloon.scene(f"accuracy={relative!r}")
+        assert solve(scene, archive=path, throw=False, listeners=[Stop()]).result is Result.INTERRUPTED
+        with pytest.raises(ArchiveError, match="as each attempt at an accuracy is: embedding resume goes on with that"):
+            solve(scene, resume=path)
+        assert resume(path, throw=False).result is result

@@ -221,20 +221,25 @@ def _theory(
     if wall is None or _bent(problem, scalars):
         return found
     elastic = wall.elastic(law_of(problem))
-    missed = {name: -elastic * response for name, response in responses.get("all", {}).items() if name in scalars}
+    grown = responses.get("all", {})
+    missed = {name: -elastic * grown.get(name, 0.0) for name in scalars}
+    if "elastic_energy" in missed:
+        missed["elastic_energy"] += wall.energy(law_of(problem)) * scalars["elastic_energy"]
     if "pressure" in problem.system.unknowns and "pressure_difference" in scalars:
         missed["pressure_difference"] = elastic * scalars["pressure_difference"]
     field = problem.system.physics.field
     if field is not None and "voltage_jump" in scalars:
         pull = responses.get("field", {})
         missed = {name: value + wall.electric * pull.get(name, 0.0) for name, value in missed.items()}
-    return found | {"thickness": missed}
+    return found | {"thickness": {name: value for name, value in missed.items() if value}}
 
 
 def _of_bending(problem: Problem, scalars: Scalars, responses: Scalars) -> dict[str, Scalars]:
     """What normals that stay normal leave out of the compliance, as an error of the loads."""
     bent = Bent(problem)
     moved = {name: responses.get(name, value) for name, value in scalars.items() if _moves(name)}
+    if "elastic_energy" in scalars:
+        moved["elastic_energy"] = scalars["elastic_energy"]  # at a load it is as much larger as the compliance
     parts = {"shear": bent.shear, "curling": bent.curling}
     return {source: {name: part * value for name, value in moved.items()} for source, part in parts.items() if part}
 

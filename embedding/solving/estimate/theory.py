@@ -6,10 +6,15 @@ pressure that a thick incompressible sphere or tube of the same law takes is an 
 
     p = int_a^b 2 sigma(l(r)) / r dr  (sphere),    p = int_a^b sigma(l(r), l_z) / r dr  (tube),
 
-with sigma the stress difference of the law, and the membrane's is 2 sigma(l) t / r or sigma(l) t / r. What they differ
-by is taken for every shell of that mean radius and stretch. The pull of a field through the wall differs as well: the
-field is V a b / ((b - a) r^2) in a sphere and V / (r ln(b / a)) in a tube, and V / t in a membrane. All is of second
-order in the thickness over the radius.
+with sigma the stress difference of the law, and the membrane's is 2 sigma(l) t / r or sigma(l) t / r. A shell that
+bends has its bending energy on top (shell/bending/stiffness): with X = 1 - l^-3 or 1 - 1 / (l^2 l_z) per reference area
+
+    W_b = mu_b T^3 X^2 / (2 l^4)  (sphere),    W_b = mu_b T^3 X^2 / (6 l^2 l_z^2)  (tube),
+
+which is most of the difference near rest, and none of it far from there. What they differ by is taken for every shell
+of that mean radius and stretch. The pull of a field through the wall differs as well: the field is
+V a b / ((b - a) r^2) in a sphere and V / (r ln(b / a)) in a tube, and V / t in a membrane. All is of second order in
+the thickness over the radius.
 """
 
 from __future__ import annotations
@@ -27,17 +32,20 @@ POINTS = 8
 """Gauss points through the wall."""
 AT_REST = 1e-6
 """Strain below which the wall counts as unstressed."""
+NUDGE = 1e-4
+"""Relative change of stretches by which slopes are measured."""
 
 
 @dataclass(frozen=True)
 class Wall:
     """A sphere or a tube of ``thickness`` over radius at rest, its mid-surface stretched by ``stretch``, a tube by
-    ``axial`` along itself."""
+    ``axial`` along itself; in the theory of the shell it ``bends``, or is a membrane."""
 
     tube: bool
     thickness: float
     stretch: float
     axial: float = 1.0
+    bends: bool = False
 
     def _layers(self) -> tuple[Any, Any, Any]:
         """Radii before and after, and their weights; lengths over the radius at rest."""
@@ -58,16 +66,50 @@ class Wall:
         return self.thickness / (self.stretch**2 * (self.axial if self.tube else self.stretch))
 
     def elastic(self, law: Any) -> float:
-        """How much more pressure the thick wall takes than the membrane, relative; 0 where it is at rest."""
+        """How much more pressure the thick wall takes than the shell, relative; 0 where it is at rest."""
         before, after, weights = self._layers()
-
-        def stress(stretch: Any) -> Any:
-            return law.principal_stresses(stretch, self.axial if self.tube else stretch)[0]
-
-        thin = float(stress(self.stretch)) * self.thin
+        thin = float(self._stress(law, self.stretch)) * self.thin
         if abs(self.stretch - 1.0) < AT_REST or thin == 0.0:
             return 0.0
-        return float((stress(after / before) / after) @ weights) / thin - 1.0
+        low, high = (self.bending(law, self.stretch * (1.0 + side * NUDGE)) for side in (-1, 1))
+        slope = (high - low) / (2.0 * NUDGE * self.stretch)
+        thin += slope / (self.stretch * (self.axial if self.tube else 2.0 * self.stretch))
+        return float((self._stress(law, after / before) / after) @ weights) / thin - 1.0
+
+    def energy(self, law: Any) -> float:
+        """How much more energy the thick wall stores than the shell, relative; 0 where it is at rest."""
+        nodes, weights = np.polynomial.legendre.leggauss(POINTS)
+        before = 1.0 + 0.5 * self.thickness * nodes
+        stored = self._density(law, self._after(before) / before) * before ** (1 if self.tube else 2)
+        thin = self.thickness * float(self._density(law, np.array([self.stretch]))[0])
+        thin += self.bending(law, self.stretch)
+        if abs(self.stretch - 1.0) < AT_REST or thin <= 0.0:
+            return 0.0
+        return float(0.5 * self.thickness * stored @ weights) / thin - 1.0
+
+    def _stress(self, law: Any, stretch: Any) -> Any:
+        """The stress difference at a hoop stretch, for which the pressure goes over the wall."""
+        return law.principal_stresses(stretch, self.axial if self.tube else stretch)[0]
+
+    def _density(self, law: Any, stretches: Any) -> Any:
+        """Energy per volume at hoop ``stretches`` (n,): the work of the stresses on the way there from rest."""
+        nodes, weights = np.polynomial.legendre.leggauss(POINTS)
+        logs = np.log(stretches)[:, None] * (0.5 * (1.0 + nodes))
+        work = 0.5 * np.log(stretches) * (self._stress(law, np.exp(logs)) @ weights)
+        if not self.tube:
+            return 2.0 * work
+        along = 0.5 * math.log(self.axial) * (1.0 + nodes)
+        return work + 0.5 * math.log(self.axial) * (law.principal_stresses(1.0, np.exp(along))[1] @ weights)
+
+    def bending(self, law: Any, stretch: float) -> float:
+        """Energy of bending per reference area that the shell has at a hoop ``stretch``."""
+        if not self.bends:
+            return 0.0
+        if self.tube:
+            curved, area = 1.0 - 1.0 / (stretch**2 * self.axial), 6.0 * (stretch * self.axial) ** 2
+        else:
+            curved, area = 1.0 - stretch**-3, 2.0 * stretch**4
+        return _modulus(law, stretch, self.axial if self.tube else stretch) * self.thickness**3 * curved**2 / area
 
     @property
     def electric(self) -> float:
@@ -103,6 +145,19 @@ class Wall:
         return float(stress) * self.thin * (1.0 if self.tube else 2.0)
 
 
+def _modulus(law: Any, first: float, second: float) -> float:
+    """The mean of (s_i - s_j) / (l_i^2 - l_j^2) over the pairs of principal directions, beside these in-plane stretches
+    to either side: where two are the same it is a limit."""
+    found = []
+    for side in (-NUDGE, NUDGE):
+        stretches = first * (1.0 + side), second * (1.0 - side)
+        l1, l2, l3 = *stretches, 1.0 / (stretches[0] * stretches[1])
+        s1, s2 = law.principal_stresses(l1, l2)
+        pairs = (s1 - s2) / (l1**2 - l2**2) + s1 / (l1**2 - l3**2) + s2 / (l2**2 - l3**2)
+        found.append(float(pairs) / 3.0)
+    return 0.5 * sum(found)
+
+
 def law_of(problem: Problem) -> Any:
     """The law of the shell outside of its regions."""
     law: Any = problem.system.physics.law
@@ -122,4 +177,4 @@ def wall_of(problem: Problem, scalars: dict[str, float]) -> Wall | None:
         return None
     ratio = problem.scene.shell.thickest / problem.scales.length / radius
     axial = scalars.get("axial_stretch", physics.axial_stretch)
-    return Wall(problem.reduction.name == "plane-strain", ratio, scalars["stretch"], axial)
+    return Wall(problem.reduction.name == "plane-strain", ratio, scalars["stretch"], axial, problem.plan.bending)
