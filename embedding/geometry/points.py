@@ -1,4 +1,4 @@
-"""Functions on a curve that are known at the points of an integration rule alone."""
+"""Points inside the elements of the shell, and functions on a curve that are known at such points alone."""
 
 from __future__ import annotations
 
@@ -6,11 +6,25 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from ngsolve import BND, CF, ElementId, GridFunction, SurfaceL2
+from ngsolve import BND, CF, ET, ElementId, GridFunction, IntegrationRule, SurfaceL2
 
 from embedding.geometry.domain import Domain
 
 Array = npt.NDArray[np.float64]
+
+
+def sampling_rule(dimension: int, order: int, *, to_edges: bool = False) -> Any:
+    """An integration rule for the elements of a shell in space (``dimension`` 3) or of a curve (2), whose points are
+    where functions of elements of that ``order`` are looked at; ``to_edges`` adds points on edges and corners."""
+    rule = IntegrationRule(ET.TRIG if dimension == 3 else ET.SEGM, 2 * order)
+    if not to_edges:
+        return rule
+    along = [0.0, *(x for (x, *_) in IntegrationRule(ET.SEGM, 2 * order).points)]
+    more: list[Any] = [(0.0,), (1.0,)]
+    if dimension == 3:
+        more = [place for x in along for place in ((x, 0.0), (1.0 - x, x), (0.0, 1.0 - x))]
+    points = [tuple(point) for point in rule.points]
+    return IntegrationRule(points=points + more, weights=[*rule.weights, *([0.0] * len(more))])
 
 
 class PointFields:

@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from ngsolve import ET, IfPos, IntegrationRule
+from ngsolve import IfPos
 
 from embedding.coupling.linear import LinearSolverError
+from embedding.geometry.points import sampling_rule
 from embedding.solving.path import Target
 from embedding.solving.problem import Problem
 from embedding.solving.state import State
@@ -86,7 +87,7 @@ def region_in_compression(problem: Problem, state: State) -> str:
 
 def _stresses(problem: Problem, state: State) -> tuple[Any, npt.NDArray[np.float64]]:
     """Points all over the shell, and the smaller principal stress there."""
-    rule = IntegrationRule(ET.TRIG if problem.mesh.dim == 3 else ET.SEGM, 2 * problem.domain.sizes.order)
+    rule = sampling_rule(problem.mesh.dim, problem.domain.sizes.order)
     points = problem.mesh.MapToAllElements(rule, problem.domain.shell)
     return points, np.asarray(state.min_principal_stress(points)).ravel()
 

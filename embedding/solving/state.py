@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from ngsolve import CF, ET, Grad, Id, IfPos, InnerProduct, IntegrationRule, sqrt, x
+from ngsolve import CF, Grad, Id, IfPos, InnerProduct, sqrt, x
 
 from embedding.ambient.potential import Conductor
 from embedding.coupling.field import FieldEnergies
 from embedding.coupling.potential_solve import PotentialSolve
+from embedding.geometry.points import sampling_rule
 from embedding.shell.kinematics import Kinematics
 from embedding.shell.loads import enclosed_volume
 from embedding.solving.events import Derived, Field
@@ -29,6 +30,10 @@ class State:
 
     ``memory`` returns what a run goes on from, right after an accepted step.
     """
+
+    to_edges = False
+    """Is the smallest stress looked for up to the edges of elements? What is left of it there where the shell is
+    singular, as at corners of its rim, is no compression."""
 
     def __init__(self, problem: Problem, memory: Callable[[], Memory] = dict) -> None:
         self.problem, self.memory = problem, memory
@@ -236,7 +241,7 @@ class State:
         ratio = self._domain.shell_integral(self.mid_surface.surface_stretch) / area
         plane = self._domain.reduction.name == "plane-strain"
         axial = float(self._values["axial"].vec[0]) if "axial" in self._values else self._system.physics.axial_stretch
-        major, minor = (self._sample(value) for value in self.principal_stretches)
+        major, minor = (self._sample(value, to_edges=True) for value in self.principal_stretches)
         return {
             "stretch": ratio / axial if plane else math.sqrt(ratio),
             "stretch_max": float(major.max()),
@@ -246,11 +251,11 @@ class State:
 
     @property
     def smallest_stress(self) -> float:
-        """Smallest principal stress anywhere, dimensionless."""
-        return float(self._sample(self.min_principal_stress).min())
+        """Smallest principal stress of those inside the elements, or anywhere (``to_edges``), dimensionless."""
+        return float(self._sample(self.min_principal_stress, to_edges=self.to_edges).min())
 
-    def _sample(self, values: Any) -> Any:
-        rule = IntegrationRule(ET.TRIG if self._domain.mesh.dim == 3 else ET.SEGM, 2 * self._domain.sizes.order)
+    def _sample(self, values: Any, *, to_edges: bool) -> Any:
+        rule = sampling_rule(self._domain.mesh.dim, self._domain.sizes.order, to_edges=to_edges)
         return np.asarray(values(self._domain.mesh.MapToAllElements(rule, self._domain.shell)))
 
     def _pressure_difference(self) -> float:

@@ -15,8 +15,9 @@ import math
 from typing import Any
 
 import numpy as np
-from ngsolve import CF, ET, IntegrationRule
+from ngsolve import CF
 
+from embedding.geometry.points import sampling_rule
 from embedding.solving.problem import Problem
 
 SHEAR_FACTOR = 5.0 / 6.0
@@ -72,7 +73,7 @@ class Bent:
 
     def _largest(self, function: Any) -> float:
         """Of a function on the shell, at several points of every element; 0 if it is negative."""
-        rule = IntegrationRule(ET.TRIG if self._domain.mesh.dim == 3 else ET.SEGM, 2 * self._domain.sizes.order)
+        rule = sampling_rule(self._domain.mesh.dim, self._domain.sizes.order)
         points = self._domain.mesh.MapToAllElements(rule, self._domain.shell)
         return max(float(np.asarray(CF(function)(points)).max()), 0.0)
 

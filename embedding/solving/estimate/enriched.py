@@ -73,6 +73,7 @@ class Enriched(Problem):
         self.system.ambient_as_in(problem.system)
         self.system.restore(self.system.save())  # the state did not get here by Newton steps
         self.state, self._ending = State(self), ending
+        self.state.to_edges = True  # what the state at hand has missed there is part of its error
         self.loads = 0.0
 
     def scalars(self) -> Scalars:
