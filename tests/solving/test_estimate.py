@@ -19,12 +19,15 @@ from embedding import (
     Shell,
     Sphere,
     Stage,
+    load_scene,
     solve,
 )
 from embedding.geometry.remeshing import one_order_more
 from embedding.scene import EPSILON_0
 from embedding.solving.estimate.enriched import Enriched
-from problems import capacitances
+from problems import capacitances, circular_membrane
+from problems.common import law_of
+from problems.exact import circular_membrane as exact_membrane
 from problems.exact import cylinder, sphere
 from problems.exact.charged_balloon import ChargedBalloon
 from problems.exact.material import neo_hookean
@@ -105,3 +108,15 @@ def test_the_next_order_starts_with_the_ambient_where_it_is() -> None:
             assert np.array_equal(follower.w.vec.FV().NumPy(), motion.w.vec.FV().NumPy())
             assert richer.system.follow()
             assert np.array_equal(follower.w.vec.FV().NumPy(), motion.w.vec.FV().NumPy())
+
+
+@pytest.mark.parametrize(("order", "size"), [(2, 0.02), (2, 0.01), (3, 0.02), (4, 0.02)])
+def test_extremes_at_the_ends_of_elements(order: int, size: float) -> None:
+    """A membrane that is blown up is stretched most at its apex, on the axis, and least along its rim."""
+    height = 0.08
+    meshed = f"discretisation.order={order}", f"discretisation.shell_size={size}"
+    solution = solve(load_scene(circular_membrane.SCENE, (f"path.0.until.value={height}", *meshed)))
+    known = exact_membrane.at_deflection(height / circular_membrane.RADIUS, law_of(solution.scene)).apex_stretch
+    scalars, errors = solution.steps[-1].scalars, solution.errors
+    assert 0.8 < errors["stretch_max"].value / abs(scalars["stretch_max"] / known - 1.0) < 1.5
+    assert scalars["stretch_min"] == pytest.approx(1.0, abs=1e-12)
