@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BeforeValidator
 
 from embedding.scene.messages import refusal
-from embedding.scene.part import Part
+from embedding.scene.part import BROKEN, Part
 from embedding.scene.units import Number
 
 FINEST, COARSEST = 1e-7, 0.3
@@ -44,4 +44,6 @@ def from_number(value: Any) -> Any:
         return {"relative": value}
     if isinstance(value, dict) and isinstance(value.get("of"), str):
         return {**value, "of": (value["of"],)}
+    if value is not None and not isinstance(value, (dict, Accuracy, type(BROKEN))):
+        raise refusal(f"must be a number, or a table with the keys {', '.join(Accuracy.model_fields)}")
     return value

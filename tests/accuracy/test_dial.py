@@ -153,6 +153,12 @@ def test_listeners_hear_every_attempt() -> None:
     assert counting.started_runs == len(found.attempts)
 
 
+@pytest.mark.parametrize("value", ["true", "[1e-3]"])
+def test_an_accuracy_is_a_number_or_a_table(value: str) -> None:
+    with pytest.raises(SceneError, match=r"not allowed: must be a number, or a table with the keys relative, max_un"):
+        charged_balloon.scene(f"accuracy={value}")
+
+
 def test_bad_accuracies_are_refused() -> None:
     for wrong in ("accuracy=0", "accuracy=1", "accuracy={of = ['charge']}", "accuracy={relative=1e-3, of=['a b']}"):
         with pytest.raises(SceneError, match="accuracy"):
