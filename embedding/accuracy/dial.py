@@ -28,10 +28,10 @@ SURE = 1.25
 (tests/solving/test_effectivity)."""
 SHARE = 0.6
 """Part of what the model leaves of the accuracy that the discretisation may take at the next attempt."""
-LEFT, TOO_MUCH, ROUNDING = 1e-4, 0.1, 1e-14
+LEFT, TOO_MUCH, LEAST = 1e-4, 0.1, 1e-13
 """Part of the accuracy at which Newton's method may end, in sizes of the shell; it has made one more update by then.
 A shell that hardly moves has more left of its answer: where that is ``TOO_MUCH`` of the accuracy, Newton's method goes
-on to a hundredth of it, if rounding lets it."""
+on to a hundredth of it, or to the ``LEAST`` that a scene may ask for."""
 GAINING, PATIENCE = 0.7, 2
 """The mesh is given up where the last ``PATIENCE`` refinements left more than this of the discretisation's part."""
 CANNOT = (Result.INTERRUPTED, Result.MAX_ARC, Result.MAX_STEPS, Result.LIMIT_POINT, Result.PULL_IN)
@@ -105,7 +105,7 @@ def _tighter(scene: Scene, solution: Solution, relative: float) -> float | None:
     stated, used = scene.solver.tolerance, solution.scene.solver.tolerance
     if left <= TOO_MUCH * relative or stated != type(scene.solver).model_fields["tolerance"].default:
         return None
-    needed = max(ROUNDING, used * min(1.0, relative / left) * TOO_MUCH**2)
+    needed = max(LEAST, used * min(1.0, relative / left) * TOO_MUCH**2)
     return needed if needed < 0.5 * used else None
 
 
@@ -182,6 +182,9 @@ def _beyond(scene: Scene, level: Level, error: ErrorEstimate, model: float, rela
                 return Verdict(f"{source} {error.parts[source]:.1e}", scene=higher, level=level)
     models = (source for source in error.parts if source not in DISCRETE)
     worst = max(models, key=lambda source: error.parts[source])
+    if worst == "solver":
+        told = f"{error.quantity}: 0 up to what Newton's method leaves of it, which has no relative error"
+        return Verdict(told, Result.ACCURACY_NOT_REACHED)
     return Verdict(f"{worst} alone is {error.parts[worst]:.1e}, of {relative:g} in all", Result.BEYOND_THE_MODEL)
 
 

@@ -26,6 +26,7 @@ from embedding.plan import explain
 from embedding.solving import Assumption, Result
 from problems import charged_balloon, circular_membrane, cylinder_inflation, slit_annulus
 from problems.known import Known, all_known
+from tests.balloons import SMALL
 
 KNOWN = {known.name: known for known in all_known()}
 QUICK = (
@@ -217,6 +218,15 @@ def test_a_shell_that_hardly_moves(deflection: float) -> None:
     solution = solve(Scene.from_toml(DISC).with_overrides([f"loads.pressure_bottom={pressure!r}", wanted]))
     assert solution.steps[-1].scalars["u_middle_z"] == pytest.approx(deflection, rel=1e-4)
     assert len(solution.attempts) > 1 and "Newton's method left" in solution.attempts[0].reason
+
+
+def test_an_answer_that_is_nothing() -> None:
+    """A balloon that is let off: its displacement is what Newton's method leaves."""
+    down = "path=[{steps = 2}, {steps = 2, mechanical = 0.0}]"
+    wanted = "accuracy={relative = 1e-3, of = ['displacement']}"
+    solution = solve(Scene.from_toml(SMALL).with_overrides([down, wanted]), throw=False)
+    assert solution.result is Result.ACCURACY_NOT_REACHED
+    assert solution.message.startswith("displacement: 0 up to what Newton's method leaves of it")
 
 
 def test_a_mesh_is_given_up_where_it_is_not_to_blame() -> None:
