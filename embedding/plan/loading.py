@@ -199,7 +199,7 @@ class Loading:
         stretch, response = self.answer
         if self.controlled and name in (*STRETCHES, "displacement"):
             # the volume of a shell that grows alike everywhere says all; of another it leaves the shape open
-            return 0.0 if self.homogeneous else STRETCHES.get(name, 1.0)
+            return 0.0 if self.homogeneous or name == "volume_ratio" else 1.0
         if name in STRETCHES:
             return STRETCHES[name] * response
         if not is_displacement(name) or self.controlled:

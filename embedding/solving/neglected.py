@@ -65,7 +65,7 @@ class Neglected:
         if name not in STRETCHES:
             return 1.0
         if physics.volume_controlled:
-            return 0.0 if Loading(self.problem.scene).homogeneous else STRETCHES[name]
+            return 0.0 if Loading(self.problem.scene).homogeneous or name == "volume_ratio" else 1.0
         return slope(self.steps, name, with_field=physics.field is not None) / part
 
     def _smallness(self, name: str) -> float:

@@ -91,7 +91,8 @@ def estimate_errors(
         slopes = richer.slopes() if responses is not None else None
         condition = richer.condition() if solved else None
     singular = solved and responses is None
-    method = _method(problem, changes, singular=singular)
+    adrift = ending is not None and slopes is None
+    method = _method(problem, changes, singular=singular, adrift=adrift)
     responses = responses or {}
     limit, wall = _beyond(problem), wall_of(problem, scalars)
     sources = _discretisation(problem, changes, scalars, limit)
@@ -157,12 +158,14 @@ def _not_beyond(parts: Scalars, sources: Sequence[str], together: float) -> Scal
     return {source: part * most / apart for source, part in found.items()} if apart > most else {}
 
 
-def _method(problem: Problem, changes: Changes | None, *, singular: bool) -> str:
+def _method(problem: Problem, changes: Changes | None, *, singular: bool, adrift: bool) -> str:
     order, left_out = problem.domain.sizes.order, []
     if changes is None:
         left_out.append("more than that the mesh does not resolve this state")
     if singular:
         left_out.append("what errors of the loads do, at a state whose tangent is singular,")
+    if adrift and changes is not None:
+        left_out.append("what the load is off by at the displacement where the path ends")
     if problem.domain.rims and not problem.plan.bending and not problem.domain.is_flat:
         left_out.append("bending at held edges")
     if problem.plan.extent == "given":
