@@ -210,6 +210,7 @@ def same(one: Solution, other: Solution, tolerance: float, *names: str) -> None:
 # -- mirror planes
 
 
+@pytest.mark.estimated
 def test_a_quarter_of_a_ring_is_the_ring() -> None:
     """A dielectric tube in a transverse field ovals: no condition of the mirror planes may hold that back."""
     scene = Scene(
@@ -225,7 +226,9 @@ def test_a_quarter_of_a_ring_is_the_ring() -> None:
     )
     quarter = solve(scene)
     whole = solve(scene.model_copy(update={"model": {"symmetry": "none"}}))
-    same(quarter, whole, 2e-6, "stretch", "stretch_max", "elastic_energy")
+    same(quarter, whole, 2e-6, "stretch", "elastic_energy")
+    stated = quarter.errors["stretch_max"].discretisation  # at an end of an element, where that is on either mesh
+    assert abs(quarter["stretch_max"][-1] / whole["stretch_max"][-1] - 1.0) < stated < 1e-4
     assert quarter["pressure_top"] == pytest.approx(whole["pressure_top"], rel=2e-5)
     assert "held_force" not in quarter.steps[-1].scalars
     assert quarter["stretch_max"][-1] > 1.2603
