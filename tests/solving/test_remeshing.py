@@ -17,7 +17,7 @@ from tests.unestimated import unestimated
 
 pytestmark = pytest.mark.usefixtures("unestimated")
 
-ROUND = 'loads.edge_moments=[{ edge = "x1", moment = "83.7758 uN" }]'
+ROUND = 'loads.edge_moments=[{ edge = "x1", moment = "83.3569 uN" }]'
 TOO_FAR = 'loads.edge_moments=[{ edge = "x1", moment = "95 uN" }]'
 
 
@@ -33,7 +33,8 @@ class Meshes(Listener):
 
 @pytest.mark.slow
 def test_a_strip_rolled_up_to_a_full_circle(tmp_path: Path) -> None:
-    """Its tip comes back to the clamp, up to the strip's own thinness; on one mesh it gets to three quarters."""
+    """Its tip comes back to the clamp, up to half a hundredth of the turn, before it touches it; on one mesh it gets to
+    three quarters."""
     solution, tip = turned_in_a_field.run(ROUND, archive=tmp_path / "rolled.vtkhdf")
     assert solution["remeshings"][0] == 0 and solution["remeshings"][-1] >= 1
     assert solution["min_jacobian"].min() > 0.02
