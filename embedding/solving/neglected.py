@@ -69,8 +69,8 @@ class Neglected:
         return slope(self.steps, name, with_field=physics.field is not None) / part
 
     def _smallness(self, name: str) -> float:
-        """How much less than the shell as a whole a point of a curved one moves: what changes all moves it as much as the
-        rest. A flat one moves in its plane and out of it for different reasons."""
+        """How much less than the shell as a whole a point of a curved one moves: what changes all moves it as much as
+        the rest. A flat one moves in its plane and out of it for different reasons."""
         if self.problem.domain.is_flat:
             return 1.0
         whole, here = abs(self.scalars["displacement"]), abs(self.scalars.get(name, 0.0))

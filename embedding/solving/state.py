@@ -32,8 +32,8 @@ class State:
     """
 
     to_edges = False
-    """Is the smallest stress looked for up to the edges of elements? What is left of it there where the shell is
-    singular, as at corners of its rim, is no compression."""
+    """Are all extremes looked for up to the edges of elements? Those of the stretch are on curves; on surfaces the many
+    corners, where it is least accurate, would make it too large, and the stress may be singular at ends of a rim."""
 
     def __init__(self, problem: Problem, memory: Callable[[], Memory] = dict) -> None:
         self.problem, self.memory = problem, memory
@@ -241,7 +241,8 @@ class State:
         ratio = self._domain.shell_integral(self.mid_surface.surface_stretch) / area
         plane = self._domain.reduction.name == "plane-strain"
         axial = float(self._values["axial"].vec[0]) if "axial" in self._values else self._system.physics.axial_stretch
-        major, minor = (self._sample(value, to_edges=True) for value in self.principal_stretches)
+        to_edges = self.to_edges or self._domain.mesh.dim == 2
+        major, minor = (self._sample(value, to_edges=to_edges) for value in self.principal_stretches)
         return {
             "stretch": ratio / axial if plane else math.sqrt(ratio),
             "stretch_max": float(major.max()),
