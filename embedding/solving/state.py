@@ -64,7 +64,12 @@ class State:
 
     @cached_property
     def principal_stretches(self) -> tuple[Any, Any]:
-        """Larger and smaller in-plane stretch, from the invariants I_C and J_s."""
+        """Larger and smaller in-plane stretch: of a curve those along and across it, of a surface from the invariants
+        I_C and J_s, with an error of the root of rounding where they are equal."""
+        if self._domain.mesh.dim == 2:
+            across = self.mid_surface.hoop
+            along = self.mid_surface.surface_stretch / across
+            return IfPos(along - across, along, across), IfPos(along - across, across, along)
         half = self.mid_surface.metric_trace / 2
         inside = half * half - self.mid_surface.surface_stretch_squared
         root = sqrt(IfPos(inside, inside, CF(0.0)))
