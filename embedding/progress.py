@@ -12,7 +12,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
 from embedding.solving.events import Iteration, Listener, StepRecord
-from embedding.solving.path import planned_steps
+from embedding.solving.path import in_words, planned_steps
 
 if TYPE_CHECKING:
     from rich.console import Console, Group
@@ -175,8 +175,7 @@ class ProgressDisplay(Listener):
 
     def _load(self) -> str:
         """The load of the present step in words, without what the scene does not have."""
-        shown = {name: value for name, value in self.target.items() if name in (*self.ramped, "volume_ratio")}
-        return ", ".join(f"{name.replace('_', ' ')} {value:.4g}" for name, value in shown.items())
+        return in_words(self.target, self.ramped).replace("_", " ")
 
     def _stretch(self, record: StepRecord) -> str:
         """The mean stretch of an accepted step, if the solver gave one."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from embedding.scene import Stage
@@ -48,9 +48,13 @@ class Target:
 
     def told(self, ramped: Sequence[str], digits: int = 4) -> str:
         """The target in words, of its factors those that scale something; of all if that is none."""
-        named = self.report()
-        shown = [name for name in named if name in ramped or name == "volume_ratio"] or named
-        return ", ".join(f"{name} {named[name]:.{digits}g}" for name in shown)
+        return in_words(self.report(), ramped, digits)
+
+
+def in_words(named: Mapping[str, float], ramped: Sequence[str], digits: int = 4) -> str:
+    """What :meth:`Target.report` returned in words, see :meth:`Target.told`."""
+    shown = [name for name in named if name in ramped or name == "volume_ratio"] or named
+    return ", ".join(f"{name} {named[name]:.{digits}g}" for name in shown)
 
 
 def stage_target(stage: Stage, full_difference: float | None) -> Target:

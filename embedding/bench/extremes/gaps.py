@@ -99,7 +99,6 @@ def membranes() -> list[Cell]:
     return found
 
 
-
 def _sphere(gap: float) -> dict[str, float]:
     return {"charge": sphere_charge(1.0 + gap)}
 

@@ -42,10 +42,11 @@ class Ending:
         loads += ["pressure_difference"] if self.begin.mechanical != self.end.mechanical else []
         return next((name for name in loads if scalars.get(name)), "elastic_energy")
 
-    def moved(self, problem: Problem) -> Scalars:
-        """The displacement w in m at the present state of ``problem``, by its name."""
-        row, unknowns = displacement_row(problem, self.until, self.number), problem.system.unknowns
-        return {MOVED: problem.scales.length * float(row @ unknowns.field("u").vec.FV().NumPy())}
+    def watch(self, problem: Problem) -> Callable[[], Scalars]:
+        """A function that tells the displacement w in m at the present state of ``problem``, by its name: the point is
+        looked for once."""
+        row, u = displacement_row(problem, self.until, self.number), problem.system.unknowns.field("u")
+        return lambda: {MOVED: problem.scales.length * float(row @ u.vec.FV().NumPy())}
 
     def slopes(self, problem: Problem, scalars: Callable[[], Scalars]) -> Scalars | None:
         """dQ/dt of all ``scalars`` along the path at the converged state of ``problem``, w among them; None where the

@@ -73,12 +73,13 @@ class Enriched(Problem):
         self.system.ambient_as_in(problem.system)
         self.system.restore(self.system.save())  # the state did not get here by Newton steps
         self.state, self._ending = State(self), ending
+        self._moved_to: Callable[[], Scalars] = dict if ending is None else ending.watch(self)
         self.state.to_edges = True  # what the state at hand has missed there is part of its error
         self.loads = 0.0
 
     def scalars(self) -> Scalars:
         """Those of the present state, with the displacement at which the last stage has ended, if it did at one."""
-        return self.state.scalars() | (self._ending.moved(self) if self._ending is not None else {})
+        return self.state.scalars() | self._moved_to()
 
     def slopes(self) -> Scalars | None:
         """What the scalars change by along the path at its end, see :meth:`Ending.slopes`."""

@@ -82,7 +82,7 @@ def estimate_errors(
     """Error estimates of all scalars at the present, converged state, the last of ``steps``: at its load, or at the
     displacement that was the ``ending`` of its stage."""
     answers = {name: value for name, value in steps[-1].scalars.items() if name not in COUNTED and value != 0.0}
-    scalars = answers | (ending.moved(problem) if ending is not None else {})
+    scalars = answers | (ending.watch(problem)() if ending is not None else {})
     with one_order_more(problem.domain) as domain:
         richer = Enriched(problem, domain, ending)
         changes = richer.improve(target, scalars, _straight(problem))

@@ -78,14 +78,13 @@ class Wall:
 
     def energy(self, law: Any) -> float:
         """How much more energy the thick wall stores than the shell, relative; 0 where it is at rest."""
-        nodes, weights = np.polynomial.legendre.leggauss(POINTS)
-        before = 1.0 + 0.5 * self.thickness * nodes
-        stored = self._density(law, self._after(before) / before) * before ** (1 if self.tube else 2)
+        before, after, weights = self._layers()
+        stored = self._density(law, after / before) * (self.axial * after if self.tube else after**2)
         thin = self.thickness * float(self._density(law, np.array([self.stretch]))[0])
         thin += self.bending(law, self.stretch)
         if abs(self.stretch - 1.0) < AT_REST or thin <= 0.0:
             return 0.0
-        return float(0.5 * self.thickness * stored @ weights) / thin - 1.0
+        return float(stored @ weights) / thin - 1.0
 
     def _stress(self, law: Any, stretch: Any) -> Any:
         """The stress difference at a hoop stretch, for which the pressure goes over the wall."""
