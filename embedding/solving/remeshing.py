@@ -38,8 +38,8 @@ class Remeshed(Problem):
         super().__init__(problem.scene, problem.plan, found.domain)
         self.origin = origin_of(problem)
         self._before, self._matching = unknowns, found.matching
-        present, system = np.array(unknowns.state.vec.FV().NumPy()), self.system
-        system.present = self.carried(present)
+        system = self.system
+        system.present = self.carried(problem.system.present)
         counted, before = system.unknowns.bending, unknowns.bending
         if isinstance(counted, CurveBending) and isinstance(before, CurveBending):
             counted.carried_from(before, found.matching)

@@ -53,7 +53,7 @@ class ShellPath:
 
     def values(self) -> Array:
         """A copy of the unknowns."""
-        return np.array(self._state.FV().NumPy())
+        return self._system.present
 
     def move(self, values: Array, parameter: float, *, curved: bool = False) -> bool:
         """Go to another state; False (and nothing moved) if elements of the ambient would turn over, or if there is no
@@ -73,7 +73,7 @@ class ShellPath:
         return moved
 
     def _put(self, values: Array, parameter: float) -> None:
-        self._state.FV().NumPy()[:] = values
+        self._system.present = values
         self._load(parameter)
         self._parameter = parameter
 
@@ -115,7 +115,7 @@ class ShellPath:
             if self._squared:
                 self._follow_field(values, self.target(here).field, self.target(at).field)
             sides.append((at, self._numbers(self._system.residual()), self.values()))
-            self._state.FV().NumPy()[:] = values
+            self._system.present = values
         self._load(here)
         (start, low, before), (stop, high, after) = sides
         return (high - low) / (stop - start), (after - before) / (stop - start)
